@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/fit_options.h"
+#include "pcl_sq/superquadric.h"
+
+namespace pcl_sq {
+
+/** \brief Why a fit ended. */
+enum class Termination {
+  NOT_RUN,               ///< no fit was made
+  COST_CHANGE_TOO_SMALL, ///< (old cost - new cost) < tolerance * old cost
+  STEP_TOO_SMALL,        ///< no parameter moved by more than its tolerance
+  GRADIENT_TOO_SMALL,    ///< the free parameters' gradient vanished
+  MAX_ITERATIONS,        ///< the iteration limit was reached
+  DAMPING_TOO_LARGE,     ///< no step lowered the cost any more
+  TOO_FEW_POINTS,        ///< fewer finite points than the model needs
+  DEGENERATE,            ///< the points span no volume (one point, a line)
+  INVALID_OPTIONS        ///< an option is outside its range
+};
+
+/** \brief The value's name, as it stands in the JSON. */
+PCL_SQ_EXPORTS const char* toString(Termination termination);
+
+/** \brief Result of a fit. */
+struct PCL_SQ_EXPORTS FitSummary {
+  Superquadric model;
+  Termination termination = Termination::NOT_RUN;
+  std::size_t points = 0;    ///< finite points used
+  int iterations = 0;        ///< of Levenberg-Marquardt, all starts together
+  double distortion = 0.0;   ///< D, Eq. (7), semi-axes in metres
+  double rms_distance = 0.0; ///< of the foot-point distance [m]
+
+  /** \brief Whether \a model is usable. */
+  [[nodiscard]] bool ok() const;
+};
+
+/** \brief Principal axes of the points as a right-handed rotation (III-B; E11).
+ *
+ * The columns are ordered and signed so that they lie as close as possible to the axes
+ * of the cloud's frame: the first to x, the second to y, the third to z (the depth). */
+PCL_SQ_EXPORTS Eigen::Matrix3d
+principalAxes(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
+/** \brief The paper's start for one region (III-B): centre and rotation as given, a1
+ * and a2 from the points' extents around the centre, a3 half the region's depth,
+ * exponents one. */
+PCL_SQ_EXPORTS Superquadric
+initialSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                    const Eigen::Vector3d& center,
+                    const Eigen::Matrix3d& rotation,
+                    double depth,
+                    const PaperFitOptions& options = {});
+
+/** \brief The paper's fit (III-B, Eqs. 4-7): epsilon1, epsilon2 and a3 by
+ * Levenberg-Marquardt; the pose, a1 and a2 of \a initial are kept.
+ * \param[in] points 3 x N in the cloud's frame [m]; non-finite columns are left out */
+PCL_SQ_EXPORTS FitSummary
+fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                     const Superquadric& initial,
+                     const PaperFitOptions& options = {});
+
+} // namespace pcl_sq

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/superquadric.h"
+
+#include "gauge.h"
+
+#include <limits>
+
+namespace pcl_sq {
+
+namespace {
+
+using detail::LogGauge;
+
+constexpr double HUGE_VALUE = std::numeric_limits<double>::max();
+
+/** \brief exp() that saturates at the largest double instead of overflowing. */
+double saturatedExp(double x) {
+  return x > 709.0 ? HUGE_VALUE : std::exp(x);
+}
+
+double beta(double x, double y) { // std::tgamma, not lgamma, which writes a global
+  return std::tgamma(x) * std::tgamma(y) / std::tgamma(x + y);
+}
+
+/** \brief Exponents with which the dual body is evaluated: e' = 2 - e. */
+double dualEpsilon(double epsilon) {
+  return std::max(2.0 - epsilon, 1e-6);
+}
+
+/** \brief Support function in the own frame; the argument of the dual gauge is a_k u_k.
+ */
+LogGauge logSupport(const Superquadric& s, const Eigen::Vector3d& u) {
+  return detail::logGauge(
+      u, s.semi_axes.cwiseInverse(), dualEpsilon(s.epsilon1), dualEpsilon(s.epsilon2));
+}
+
+/** \brief Contact point of the supporting plane in the own frame, c_k = dh / du_k. */
+Eigen::Vector3d contactPoint(const LogGauge& h, const Eigen::Vector3d& u) {
+  return std::exp(h.value) * detail::logGaugeGradient(h, u);
+}
+
+} // namespace
+
+bool Superquadric::isValid(std::string* why) const {
+  const auto fail = [why](const char* sentence) {
+    if (why)
+      *why = sentence;
+    return false;
+  };
+  if (!center.allFinite() || !rotation.allFinite() || !semi_axes.allFinite() ||
+      !std::isfinite(epsilon1) || !std::isfinite(epsilon2))
+    return fail("a parameter is not finite");
+  if (semi_axes.minCoeff() <= 0.0)
+    return fail("a semi-axis is not positive");
+  for (const double epsilon : {epsilon1, epsilon2})
+    if (epsilon < MIN_EPSILON || epsilon > MAX_EPSILON)
+      return fail("an exponent is outside [0.05, 2]");
+  const Eigen::Matrix3d gram = rotation.transpose() * rotation;
+  if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 ||
+      rotation.determinant() <= 0.0)
+    return fail("the rotation matrix is not orthonormal and right-handed");
+  return true;
+}
+
+double Superquadric::insideOutside(const Eigen::Vector3d& point) const {
+  const LogGauge g = detail::logGauge(toLocal(point), semi_axes, epsilon1, epsilon2);
+  return saturatedExp(2.0 / epsilon1 * g.value);
+}
+
+Eigen::Vector3d
+Superquadric::insideOutsideGradient(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  const double f = saturatedExp(2.0 / epsilon1 * g.value);
+  const Eigen::Vector3d gradient =
+      rotation * ((2.0 / epsilon1) * detail::logGaugeGradient(g, local));
+  return (f * gradient).cwiseMax(-HUGE_VALUE).cwiseMin(HUGE_VALUE);
+}
+
+double Superquadric::gauge(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  if (local.isZero(0.0))
+    return 0.0;
+  return std::exp(detail::logGauge(local, semi_axes, epsilon1, epsilon2).value);
+}
+
+Eigen::Vector3d Superquadric::gaugeGradient(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  return rotation * (std::exp(g.value) * detail::logGaugeGradient(g, local));
+}
+
+SuperquadricCoefficients
+Superquadric::logGaugeJacobian(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  const Eigen::Vector3d gradient = detail::logGaugeGradient(g, local);
+  SuperquadricCoefficients jacobian;
+  jacobian.segment<3>(0) = -gradient;
+  jacobian.segment<3>(3) = gradient.cross(local);
+  jacobian[6] = -g.outer_h * g.inner_x;
+  jacobian[7] = -g.outer_h * g.inner_y;
+  jacobian[8] = -g.outer_z;
+  jacobian[9] = 0.5 * g.outer_entropy;
+  jacobian[10] = 0.5 * g.outer_h * g.inner_entropy;
+  return jacobian;
+}
+
+Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  if (local.isZero(0.0)) {
+    Eigen::Index shortest;
+    const double length = semi_axes.minCoeff(&shortest);
+    return center + length * rotation.col(shortest);
+  }
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  return toWorld(local * std::exp(-g.value));
+}
+
+double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  if (local.isZero(0.0))
+    return -semi_axes.minCoeff();
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  return -local.norm() * std::expm1(-g.value); // |y| (1 - 1/G)
+}
+
+double Superquadric::firstOrderDistance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  const double slope = detail::logGaugeGradient(g, local).norm(); // |grad G| / G
+  if (!(slope > 0.0) || local.isZero(0.0))
+    return -semi_axes.minCoeff();
+  return -std::expm1(-g.value) / slope;
+}
+
+double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = toLocal(point);
+  const double radial = radialDistance(point);
+  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
+  const Eigen::Vector3d gradient = detail::logGaugeGradient(g, local);
+  const double slope2 = gradient.squaredNorm();
+  if (!(slope2 > 0.0) || local.isZero(0.0))
+    return radial;
+  // the tangent plane at the radial projection, then back onto the surface
+  const Eigen::Vector3d radial_point = local * std::exp(-g.value);
+  const Eigen::Vector3d foot =
+      local - gradient * ((local - radial_point).dot(gradient) / slope2);
+  if (foot.isZero(0.0))
+    return radial;
+  const LogGauge at_foot = detail::logGauge(foot, semi_axes, epsilon1, epsilon2);
+  const double distance = (local - foot * std::exp(-at_foot.value)).norm();
+  return std::copysign(std::min(distance, std::abs(radial)), g.value);
+}
+
+double Superquadric::euclideanDistance(const Eigen::Vector3d& point) const {
+  return std::copysign((point - closestPoint(point)).norm(), gauge(point) - 1.0);
+}
+
+Eigen::Vector3d Superquadric::normal(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d gradient = gaugeGradient(point);
+  const double length = gradient.norm();
+  if (length > 0.0)
+    return gradient / length;
+  Eigen::Index shortest;
+  semi_axes.minCoeff(&shortest);
+  return rotation.col(shortest);
+}
+
+double Superquadric::support(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d u = rotation.transpose() * direction;
+  return u.isZero(0.0) ? 0.0 : std::exp(logSupport(*this, u).value);
+}
+
+Eigen::Vector3d Superquadric::supportPoint(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d u = rotation.transpose() * direction;
+  return toWorld(contactPoint(logSupport(*this, u), u));
+}
+
+SuperquadricCoefficients
+Superquadric::supportJacobian(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d u = rotation.transpose() * direction;
+  const LogGauge g = logSupport(*this, u);
+  const double h = std::exp(g.value);
+  const Eigen::Vector3d contact = contactPoint(g, u);
+  SuperquadricCoefficients jacobian;
+  jacobian.segment<3>(0) = u;
+  jacobian.segment<3>(3) = contact.cross(u);
+  jacobian.segment<3>(6) = u.cwiseProduct(contact);
+  jacobian[9] = -0.5 * h * g.outer_entropy;
+  jacobian[10] = -0.5 * h * g.outer_h * g.inner_entropy;
+  return jacobian;
+}
+
+Eigen::AlignedBox3d Superquadric::boundingBox() const {
+  const Eigen::Vector3d half(support(Eigen::Vector3d::UnitX()),
+                             support(Eigen::Vector3d::UnitY()),
+                             support(Eigen::Vector3d::UnitZ()));
+  return {center - half, center + half};
+}
+
+double Superquadric::volume() const {
+  return 2.0 * semi_axes.prod() * epsilon1 * epsilon2 *
+         beta(0.5 * epsilon1 + 1.0, epsilon1) * beta(0.5 * epsilon2, 0.5 * epsilon2);
+}
+
+Eigen::Matrix3d Superquadric::inertia() const {
+  const double e1 = epsilon1, e2 = epsilon2;
+  const Eigen::Vector3d a2 = semi_axes.cwiseAbs2();
+  const double scale = 0.5 * semi_axes.prod() * e1 * e2;
+  const double across = beta(1.5 * e2, 0.5 * e2) * beta(0.5 * e1, 2.0 * e1 + 1.0);
+  const double along = 4.0 * beta(0.5 * e2, 0.5 * e2 + 1.0) * beta(1.5 * e1, e1 + 1.0);
+  const Eigen::Vector3d moments(a2.y() * across + a2.z() * along,
+                                a2.x() * across + a2.z() * along,
+                                (a2.x() + a2.y()) * across);
+  return rotation * (scale * moments).asDiagonal() * rotation.transpose();
+}
+
+SuperquadricCoefficients Superquadric::toCoefficients() const {
+  SuperquadricCoefficients c;
+  const Eigen::Matrix3d& r = rotation; // R = Rz(yaw) Ry(pitch) Rx(roll)
+  c << center, std::atan2(r(2, 1), r(2, 2)), std::asin(std::clamp(-r(2, 0), -1.0, 1.0)),
+      std::atan2(r(1, 0), r(0, 0)), semi_axes, epsilon1, epsilon2;
+  return c;
+}
+
+Superquadric Superquadric::fromCoefficients(const SuperquadricCoefficients& c) {
+  Superquadric s;
+  s.center = c.segment<3>(0);
+  s.rotation = (Eigen::AngleAxisd(c[5], Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(c[4], Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(c[3], Eigen::Vector3d::UnitX()))
+                   .toRotationMatrix();
+  s.semi_axes = c.segment<3>(6);
+  s.epsilon1 = c[9];
+  s.epsilon2 = c[10];
+  return s;
+}
+
+Superquadric Superquadric::fromCoefficients(const Eigen::VectorXf& coefficients) {
+  return fromCoefficients(
+      SuperquadricCoefficients(coefficients.head<11>().cast<double>()));
+}
+
+Superquadric Superquadric::fromCoefficients(const std::vector<float>& coefficients) {
+  return fromCoefficients(
+      Eigen::VectorXf(Eigen::Map<const Eigen::VectorXf>(coefficients.data(), 11)));
+}
+
+} // namespace pcl_sq
