@@ -24,12 +24,12 @@ struct PartReport {
 
 /** \brief What an estimation did, stage by stage. */
 struct EstimationReport {
-  RoiBox region;                  ///< box that was divided [m]
-  std::size_t region_points = 0;  ///< finite points in it
-  VoxelLayout voxels;             ///< empty without a decomposition
-  std::vector<Prism> prisms;      ///< empty without a decomposition
-  std::vector<PartReport> parts;  ///< one per prism; one without a decomposition
-  pcl::Indices grasp_indices;     ///< points on the union's surface
+  RoiBox region;                 ///< box that was divided [m]
+  std::size_t region_points = 0; ///< finite points in it
+  VoxelLayout voxels;            ///< empty without a decomposition
+  std::vector<Prism> prisms;     ///< empty without a decomposition
+  std::vector<PartReport> parts; ///< one per prism; one without a decomposition
+  pcl::Indices grasp_indices;    ///< points on the union's surface
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, [ms], in order
 };
 
@@ -86,7 +86,8 @@ protected:
 
 private:
   bool cropRegion(pcl::IndicesPtr& object);
-  bool decompose(const pcl::IndicesPtr& object, std::vector<pcl::PointIndices>& clusters);
+  bool decompose(const pcl::IndicesPtr& object,
+                 std::vector<pcl::PointIndices>& clusters);
   bool fitParts(const pcl::IndicesPtr& object,
                 std::vector<pcl::PointIndices>& clusters,
                 MultiSuperquadric& model);
