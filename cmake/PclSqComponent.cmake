@@ -1,21 +1,29 @@
 # pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
-# One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own.
+# One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
+# objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
+# library hides.
 function(pcl_sq_component name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target pcl_sq_${name})
-  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(${target}_objects OBJECT ${ARG_SOURCES})
+  set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_definitions(${target}_objects PRIVATE PCL_SQ_BUILDING)
+  target_include_directories(${target}_objects PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${target}_objects PUBLIC ${ARG_PUBLIC} ${ARG_PRIVATE})
+  pcl_sq_warnings(${target}_objects)
+
+  add_library(${target} SHARED $<TARGET_OBJECTS:${target}_objects>)
   add_library(pcl_sq::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
-  target_compile_features(${target} PUBLIC cxx_std_17)
-  target_compile_definitions(${target} PRIVATE PCL_SQ_BUILDING)
-  target_include_directories(${target}
-    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-           $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
-           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  pcl_sq_warnings(${target})
+  foreach(library ${target} ${target}_objects)
+    target_compile_features(${library} PUBLIC cxx_std_17)
+    target_include_directories(${library} PUBLIC
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+      $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  endforeach()
   install(TARGETS ${target} EXPORT pcl_sq_${name}_targets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})

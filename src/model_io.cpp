@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/model_io.h"
+
+#include <nlohmann/json.hpp>
+
+namespace pcl_sq {
+
+namespace {
+
+// The schema's order of members is kept: people read these files.
+using Json = nlohmann::ordered_json;
+
+constexpr const char* SCHEMA = "pcl_sq/model";
+constexpr int VERSION = 1;
+
+Json vectorToJson(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
+  Json rotation = Json::array();
+  for (int row = 0; row < 3; ++row)
+    rotation.push_back(vectorToJson(s.rotation.row(row)));
+  return {{"semi_axes", vectorToJson(s.semi_axes)},
+          {"epsilon", {s.epsilon1, s.epsilon2}},
+          {"translation", vectorToJson(s.center)},
+          {"rotation", rotation},
+          {"points", statistics.points},
+          {"distortion", statistics.distortion},
+          {"rms_distance", statistics.rms_distance},
+          {"termination", statistics.termination}};
+}
+
+/** \brief A refusal with its reason; does not leave this file. */
+struct Refusal {
+  std::string why;
+};
+
+const Json& member(const Json& object, const char* key) {
+  if (!object.is_object() || !object.contains(key))
+    throw Refusal{std::string("the member \"") + key + "\" is missing"};
+  return object.at(key);
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> numbers(const Json& array, const char* name) {
+  if (!array.is_array() || array.size() != N)
+    throw Refusal{std::string("\"") + name + "\" must hold " + std::to_string(N) +
+                  " numbers"};
+  Eigen::Matrix<double, N, 1> v;
+  for (int k = 0; k < N; ++k) {
+    if (!array[k].is_number())
+      throw Refusal{std::string("\"") + name + "\" must hold " + std::to_string(N) +
+                    " numbers"};
+    v[k] = array[k].get<double>();
+  }
+  return v;
+}
+
+double optionalNumber(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_number() ? it->get<double>() : 0.0;
+}
+
+std::size_t optionalCount(const Json& object, const char* key) {
+  const double count = optionalNumber(object, key);
+  return count > 0.0 && count < 1e15 ? static_cast<std::size_t>(count) : 0;
+}
+
+std::string optionalString(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+Superquadric partFromJson(const Json& part, std::size_t index) {
+  Superquadric s;
+  s.semi_axes = numbers<3>(member(part, "semi_axes"), "semi_axes");
+  const Eigen::Matrix<double, 2, 1> epsilon =
+      numbers<2>(member(part, "epsilon"), "epsilon");
+  s.epsilon1 = epsilon[0];
+  s.epsilon2 = epsilon[1];
+  s.center = numbers<3>(member(part, "translation"), "translation");
+  const Json& rotation = member(part, "rotation");
+  if (!rotation.is_array() || rotation.size() != 3)
+    throw Refusal{"\"rotation\" must hold three rows"};
+  for (int row = 0; row < 3; ++row)
+    s.rotation.row(row) = numbers<3>(rotation[row], "rotation");
+  std::string why;
+  if (!s.isValid(&why))
+    throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
+  return s;
+}
+
+void read(const std::string& text, ModelFile& file) {
+  const Json json = Json::parse(text);
+  if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
+    throw Refusal{"this is not a pcl_sq/model file"};
+  const Json& version = member(json, "version");
+  if (!version.is_number_integer() || version.get<long long>() != VERSION)
+    throw Refusal{"version " + version.dump() + " of the schema is not known, 1 is"};
+  if (optionalString(json, "unit") != "m")
+    throw Refusal{"the unit must be \"m\""};
+  const Json& parts = member(json, "superquadrics");
+  if (!parts.is_array())
+    throw Refusal{"\"superquadrics\" must be a list"};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    file.model.parts.push_back(partFromJson(parts[i], i));
+    file.statistics.push_back({optionalCount(parts[i], "points"),
+                               optionalNumber(parts[i], "distortion"),
+                               optionalNumber(parts[i], "rms_distance"),
+                               optionalString(parts[i], "termination")});
+  }
+  file.frame = optionalString(json, "frame");
+  file.distortion = optionalNumber(json, "distortion");
+  file.rms_distance = optionalNumber(json, "rms_distance");
+  if (const auto input = json.find("input");
+      input != json.end() && input->is_object()) {
+    file.input_path = optionalString(*input, "path");
+    file.input_points = optionalCount(*input, "points");
+    file.finite_points = optionalCount(*input, "finite_points");
+  }
+  if (const auto options = json.find("options"); options != json.end())
+    file.options_json = options->dump();
+  if (const auto times = json.find("timings_ms");
+      times != json.end() && times->is_object())
+    for (const auto& [stage, ms] : times->items())
+      if (ms.is_number())
+        file.timings_ms.emplace_back(stage, ms.get<double>());
+  Json extra = Json::object();
+  for (const auto& [key, value] : json.items()) {
+    static const std::vector<std::string> KNOWN = {"schema",
+                                                   "version",
+                                                   "unit",
+                                                   "frame",
+                                                   "superquadrics",
+                                                   "distortion",
+                                                   "rms_distance",
+                                                   "input",
+                                                   "options",
+                                                   "timings_ms",
+                                                   "generator"};
+    if (std::find(KNOWN.begin(), KNOWN.end(), key) == KNOWN.end())
+      extra[key] = value;
+  }
+  file.extra_json = extra.dump();
+}
+
+} // namespace
+
+std::string toJson(const ModelFile& file, int indent) {
+  Json parts = Json::array();
+  for (std::size_t i = 0; i < file.model.size(); ++i)
+    parts.push_back(
+        partToJson(file.model.parts[i],
+                   i < file.statistics.size() ? file.statistics[i] : PartStatistics()));
+  Json timings = Json::object();
+  for (const auto& [stage, ms] : file.timings_ms)
+    timings[stage] = ms;
+  Json json = {{"schema", SCHEMA},
+               {"version", VERSION},
+               {"unit", "m"},
+               {"frame", file.frame},
+               {"superquadrics", parts},
+               {"distortion", file.distortion},
+               {"rms_distance", file.rms_distance},
+               {"input",
+                {{"path", file.input_path},
+                 {"points", file.input_points},
+                 {"finite_points", file.finite_points}}},
+               {"options", Json::parse(file.options_json)},
+               {"timings_ms", timings}};
+  const Json extra = Json::parse(file.extra_json);
+  for (const auto& [key, value] : extra.items())
+    json[key] = value;
+  json["generator"] = "pcl_sq " PCL_SQ_VERSION;
+  // a path may hold bytes that are not UTF-8; they become replacement characters
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+bool fromJson(const std::string& text, ModelFile& file, std::string* why) {
+  file = {};
+  try {
+    read(text, file);
+    return true;
+  } catch (const Refusal& refusal) {
+    if (why)
+      *why = refusal.why;
+  } catch (const Json::exception& error) {
+    if (why)
+      *why = std::string("not valid JSON: ") + error.what();
+  }
+  file = {};
+  return false;
+}
+
+} // namespace pcl_sq

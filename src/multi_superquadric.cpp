@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/multi_superquadric.h"
+
+#include "union_mesh.h"
+
+#include <limits>
+
+namespace pcl_sq {
+
+namespace {
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+}
+
+double MultiSuperquadric::gauge(const Eigen::Vector3d& point) const {
+  double smallest = INFINITE;
+  for (const Superquadric& part : parts)
+    smallest = std::min(smallest, part.gauge(point));
+  return smallest;
+}
+
+std::size_t MultiSuperquadric::nearestPart(const Eigen::Vector3d& point) const {
+  std::size_t nearest = 0;
+  double smallest = INFINITE;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const double distance = std::abs(parts[k].footPointDistance(point));
+    if (distance < smallest) {
+      smallest = distance;
+      nearest = k;
+    }
+  }
+  return nearest;
+}
+
+double MultiSuperquadric::euclideanDistance(const Eigen::Vector3d& point) const {
+  double smallest = INFINITE;
+  for (const Superquadric& part : parts)
+    smallest = std::min(smallest, part.euclideanDistance(point));
+  return smallest;
+}
+
+double MultiSuperquadric::support(const Eigen::Vector3d& direction) const {
+  double largest = -INFINITE;
+  for (const Superquadric& part : parts)
+    largest = std::max(largest, direction.dot(part.center) + part.support(direction));
+  return largest;
+}
+
+Eigen::AlignedBox3d MultiSuperquadric::boundingBox() const {
+  Eigen::AlignedBox3d box;
+  for (const Superquadric& part : parts)
+    box.extend(part.boundingBox());
+  return box;
+}
+
+double MultiSuperquadric::distortion(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                     double unit) const {
+  std::vector<double> factors;
+  for (const Superquadric& part : parts)
+    factors.push_back(std::sqrt((part.semi_axes / unit).prod()));
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    double nearest = INFINITE, term = 0.0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const double d = parts[k].gauge(points.col(i)) - 1.0; // Eq. (6)
+      if (std::abs(d) < nearest) {
+        nearest = std::abs(d);
+        term = factors[k] * d * d; // Eq. (7)
+      }
+    }
+    sum += term;
+  }
+  return points.cols() > 0 ? sum / double(points.cols()) : 0.0;
+}
+
+double
+MultiSuperquadric::rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    double nearest = INFINITE;
+    for (const Superquadric& part : parts)
+      nearest = std::min(nearest, std::abs(part.footPointDistance(points.col(i))));
+    sum += parts.empty() ? 0.0 : nearest * nearest;
+  }
+  return points.cols() > 0 ? std::sqrt(sum / double(points.cols())) : 0.0;
+}
+
+TriangleMesh MultiSuperquadric::meshParts(int divisions) const {
+  TriangleMesh all;
+  for (const Superquadric& part : parts) {
+    const TriangleMesh mesh = meshSuperquadric(part, divisions);
+    const auto offset = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& t : mesh.triangles)
+      all.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  return all;
+}
+
+TriangleMesh MultiSuperquadric::meshUnion(int resolution) const {
+  return detail::meshUnion(*this, resolution);
+}
+
+} // namespace pcl_sq
