@@ -126,6 +126,7 @@ NormalEquations normalEquations(const UnitPoints& points,
   }
   e.cost = sums.cost;
   e.share = sums.share;
+  e.weighted = sums.products[11][11];
   return e;
 }
 

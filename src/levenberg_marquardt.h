@@ -19,7 +19,8 @@ struct NormalEquations {
   Matrix11 jtj = Matrix11::Zero();
   Vector11 jtr = Vector11::Zero(); ///< half the cost's gradient
   double cost = 0.0;
-  double share = 0.0; ///< expected number of inliers
+  double share = 0.0;    ///< expected number of inliers
+  double weighted = 0.0; ///< sum of share r^2
 
   /** \brief Adds one residual with its derivatives. */
   void addRow(const Vector11& derivatives, double residual) {

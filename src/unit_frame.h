@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. Points of size about one around the origin, in single precision: results do
-// not depend on the unit or on where the cloud lies, and floats suffice.
+// Private. Points of size about one around the origin along their principal axes, in
+// single precision: results depend neither on the unit nor on where and how the cloud
+// lies, and floats suffice.
 #pragma once
 
 #include "kernels/kernels.h"
@@ -12,19 +13,22 @@ namespace pcl_sq::detail {
 
 /** \brief Similarity between the cloud's frame and the frame the solver works in. */
 struct UnitFrame {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the cloud's frame [m]
-  double scale = 1.0;                               ///< metres per unit
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the cloud's frame [m]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< columns, in the cloud's frame
+  double scale = 1.0;                                 ///< metres per unit
 
   Eigen::Vector3d toUnit(const Eigen::Vector3d& p) const {
-    return (p - origin) / scale;
+    return axes.transpose() * (p - origin) / scale;
   }
   Superquadric toUnit(Superquadric s) const {
     s.center = toUnit(s.center);
+    s.rotation = axes.transpose() * s.rotation;
     s.semi_axes /= scale;
     return s;
   }
   Superquadric toCloud(Superquadric s) const {
-    s.center = s.center * scale + origin;
+    s.center = axes * s.center * scale + origin;
+    s.rotation = Eigen::Quaterniond(axes * s.rotation).normalized().toRotationMatrix();
     s.semi_axes *= scale;
     return s;
   }
@@ -57,6 +61,19 @@ private:
   std::vector<float> x_, y_, z_, precision_;
   std::size_t count_ = 0;
 };
+
+/** \brief Frame of the finite points: mean, principal axes signed by the third moments,
+ * standard deviation along the longest as the unit. \return false for fewer than three
+ * finite points or a single place */
+bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points, UnitFrame& frame);
+
+/** \brief The finite points in a frame. */
+UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                  const UnitFrame& frame);
+
+/** \brief Up to \a count points, the same ones in whatever order they come: those whose
+ * coordinates have the smallest hash. */
+UnitPoints subset(const UnitPoints& points, std::size_t count);
 
 /** \brief The shape's numbers for the kernels. */
 kernels::Shape toShape(const Superquadric& superquadric);
