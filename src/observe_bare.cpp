@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An object as bare points: with a viewpoint, the outline is that of the points as the
+// camera sees them.
+#include "observe_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int MIN_POINTS = 12;
+constexpr double PIXELS_PER_SPACING = 2.0;
+
+} // namespace
+
+bool observeBare(Observation& o, std::string& why) {
+  ObservedObject& out = o.out;
+  std::vector<int> columns;
+  if (o.object.empty()) {
+    for (int c = 0; c < o.points.cols(); ++c)
+      if (o.finite(c))
+        columns.push_back(c);
+  } else
+    for (const int c : o.object)
+      if (o.finite(c))
+        columns.push_back(c);
+  if (columns.size() < std::size_t(MIN_POINTS)) {
+    why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
+    return false;
+  }
+  out.columns = columns;
+  out.points.resize(3, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    out.points.col(static_cast<Eigen::Index>(i)) = o.at(columns[i]);
+  out.effective_points = double(columns.size());
+  measure(out);
+  if (o.view.table)
+    out.table = *o.view.table;
+  checkTable(out);
+  if (!o.view.viewpoint)
+    return true;
+  const Eigen::Vector3d mean = out.points.rowwise().mean();
+  const double distance = (mean - *o.view.viewpoint).norm();
+  if (!(distance > 0.5 * out.extent)) {
+    out.notes.push_back("the viewpoint lies inside the object; its outline is not used");
+    return true;
+  }
+  out.camera = PinholeCamera::lookingAt(*o.view.viewpoint, mean, 500.0);
+  out.depth = distance;
+  std::vector<Eigen::Vector2d> pixels;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
+    if (out.camera.depthOf(out.points.col(i)) > 0.1 * distance)
+      pixels.push_back(out.camera.project(out.points.col(i)));
+  for (const Eigen::Vector2d& p : pixels) {
+    ContourPoint point;
+    point.pixel = p;
+    out.contour.push_back(point);
+  }
+  out.outline = OutlineSource::POINTS;
+  const double size = 500.0 * out.extent / distance; // [px]
+  out.outline_sigma = 0.02 * size;
+  out.outline_dilation = 0.02 * size;
+  return true;
+}
+
+} // namespace pcl_sq::detail
