@@ -29,6 +29,7 @@ struct Settings {
   bool mask = true, view = true, verbose = false;
   ObjectFitOptions fit;
   std::string kind;
+  double correlation = 0.0, sigma = 0.0, dilation = 0.0; ///< 0: the default
 };
 
 struct Result {
@@ -91,6 +92,12 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
   Result r;
   r.name = truth.name;
   r.true_parts = truth.model.size();
+  if (settings.correlation > 0.0)
+    c.view.correlation = settings.correlation;
+  if (settings.sigma > 0.0)
+    c.view.mask_sigma = settings.sigma;
+  if (settings.dilation > 0.0)
+    c.view.mask_dilation = settings.dilation;
   const std::clock_t begin = std::clock();
   std::string why;
   ObjectFit fit;
@@ -117,6 +124,25 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                 int(observed.points.cols()),
                 observed.contour.size(),
                 observed.depth);
+    if (truth.model.size() == 1 && observed.hasCamera()) {
+      double sum = 0.0, square = 0.0, n = 0.0;
+      for (const SupportPlane& plane :
+           observed.evidence(observed.contour, 48, true).silhouette) {
+        const double r = -plane.residual(truth.model.parts[0]) /
+                         plane.sigma * observed.outline_sigma;
+        sum += r;
+        square += r * r;
+        n += 1.0;
+      }
+      std::printf("    outline beyond the truth: mean %.2f px, deviation %.2f px of %d\n",
+                  sum / n, std::sqrt(square / n - sum * sum / n / n), int(n));
+    }
+    if (observed.table)
+      std::printf("    table sigma %.2f mm, truth sticks out %.2f mm\n",
+                  1e3 * observed.table->sigma,
+                  -1e3 * (observed.table->normal.dot(truth.model.parts[0].center) +
+                          observed.table->offset -
+                          truth.model.parts[0].support(observed.table->normal)));
     for (const SupportFit& part : fit.parts) {
       const Superquadric& m = part.fit.model;
       std::printf("    %s%s%s margin %.1f noise %.2f mm  a %.1f %.1f %.1f e %.2f %.2f "
@@ -189,6 +215,12 @@ int main(int argc, char** argv) {
       settings.fit.max_parts = 1;
     else if (a == "--max-parts" && i + 1 < argc)
       settings.fit.max_parts = std::atoi(argv[++i]);
+    else if (a == "--correlation" && i + 1 < argc)
+      settings.correlation = std::atof(argv[++i]);
+    else if (a == "--sigma" && i + 1 < argc)
+      settings.sigma = std::atof(argv[++i]);
+    else if (a == "--dilation" && i + 1 < argc)
+      settings.dilation = std::atof(argv[++i]);
     else if (a == "-v")
       settings.verbose = true;
     else if (a == "--kind" && i + 1 < argc)

@@ -86,7 +86,7 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     return result;
   }
   const std::vector<Trial> general = search(problem, result.fit.iterations);
-  result.candidates = fitShapes(problem, general);
+  result.candidates = fitShapes(problem, general.front());
   std::sort(
       result.candidates.begin(),
       result.candidates.end(),

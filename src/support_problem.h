@@ -64,6 +64,6 @@ std::vector<Superquadric> supportStarts(const SupportProblem& problem);
 
 /** \brief All families from the best general fit. */
 std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
-                                      const std::vector<Trial>& general);
+                                      const Trial& general);
 
 } // namespace pcl_sq::detail

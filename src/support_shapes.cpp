@@ -23,6 +23,21 @@ Superquadric withAxis(const Superquadric& m, int k) {
   return s;
 }
 
+/** \brief The dual description of the cross-section: turned by 45 degrees about z,
+ * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
+Superquadric dual(const Superquadric& m) {
+  Superquadric s = m;
+  const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
+  const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
+  const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
+  s.semi_axes[0] = s.semi_axes[1] =
+      factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+  s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
+  s.rotation *=
+      Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return s;
+}
+
 /** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up) {
   Superquadric s = m;
@@ -142,39 +157,61 @@ private:
   std::vector<ShapeCandidate> candidates_;
 };
 
+
+/** \brief The best of a model's other descriptions: exponents exchanged, the dual. */
+Trial bestDescription(const SupportProblem& problem, Trial best) {
+  for (int round = 0; round < 2; ++round) {
+    Trial next = best;
+    for (const Superquadric& m : {dual(best.model),
+                                  withAxis(best.model, 0),
+                                  withAxis(best.model, 1),
+                                  dual(withAxis(best.model, 0)),
+                                  dual(withAxis(best.model, 1))}) {
+      Trial t = best;
+      t.model = m;
+      t = problem.minimise(t, problem.medium(), kernels::Residual::FOOT_POINT, 6);
+      if (t.cost < next.cost)
+        next = t;
+    }
+    const bool settled = next.cost > best.cost - 1.0;
+    best = next;
+    if (settled)
+      break;
+  }
+  return best;
+}
+
 } // namespace
 
-std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
-                                      const std::vector<Trial>& general) {
-  Families families(problem, general.front().sigma);
-  for (const Trial& trial : general)
-    families.fit(ShapeClass::GENERIC, trial.model, -1);
-  if (!problem.options().choose_shape)
+std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem, const Trial& first) {
+  const bool choose = problem.options().choose_shape;
+  const Trial general = choose ? bestDescription(problem, first) : first;
+  Families families(problem, general.sigma);
+  const Superquadric& m = general.model;
+  families.fit(ShapeClass::GENERIC, m, -1);
+  if (!choose)
     return families.take();
-  for (std::size_t i = 0; i < general.size() && i < 2; ++i) {
-    const Superquadric& m = general[i].model;
-    int standing_axis = -1;
-    if (problem.hasUp()) {
-      const double cosine =
-          (m.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&standing_axis);
-      if (cosine < std::cos(UPRIGHT))
-        standing_axis = -1;
-    }
-    for (int k = 0; k < 3; ++k) {
-      families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), -1);
-      if (k == standing_axis)
-        families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), 2);
-    }
-    families.fit(ShapeClass::BOX, m, -1);
-    families.fit(ShapeClass::ELLIPSOID, m, -1);
-    if (standing_axis >= 0) {
-      families.fit(ShapeClass::GENERIC, m, standing_axis);
-      families.fit(ShapeClass::BOX, m, standing_axis);
-      families.fit(ShapeClass::ELLIPSOID, m, standing_axis);
-    }
-    if (problem.options().coaxial)
-      families.fitCoaxial(problem.frame().toUnit(*problem.options().coaxial), m);
+  int standing_axis = -1;
+  if (problem.hasUp()) {
+    const double cosine =
+        (m.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&standing_axis);
+    if (cosine < std::cos(UPRIGHT))
+      standing_axis = -1;
   }
+  for (int k = 0; k < 3; ++k) {
+    families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), -1);
+    if (k == standing_axis)
+      families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), 2);
+  }
+  families.fit(ShapeClass::BOX, m, -1);
+  families.fit(ShapeClass::ELLIPSOID, m, -1);
+  if (standing_axis >= 0) {
+    families.fit(ShapeClass::GENERIC, m, standing_axis);
+    families.fit(ShapeClass::BOX, m, standing_axis);
+    families.fit(ShapeClass::ELLIPSOID, m, standing_axis);
+  }
+  if (problem.options().coaxial)
+    families.fitCoaxial(problem.frame().toUnit(*problem.options().coaxial), m);
   return families.take();
 }
 

@@ -29,10 +29,10 @@ struct PCL_SQ_EXPORTS ViewOptions {
   std::optional<Eigen::Vector3d> viewpoint;
   std::optional<TableModel> table; ///< without it a table is looked for
   bool find_table = true;          ///< whether one is looked for
-  double mask_sigma = 1.0;         ///< noise of the mask's outline [px], (0, 20]
-  double mask_dilation = 0.7;      ///< sigma of its unknown dilation [px], [0, 20]
+  double mask_sigma = 0.7;         ///< noise of the mask's outline [px], (0, 20]
+  double mask_dilation = 0.35;     ///< sigma of its unknown dilation [px], [0, 20]
   /** \brief Side of the square of pixels that share their error [px], [1, 100]. */
-  double correlation = 3.5;
+  double correlation = 7.0;
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */
@@ -51,14 +51,14 @@ enum class OutlineSource {
 PCL_SQ_EXPORTS const char* toString(OutlineSource source);
 
 /** \brief An object as one camera saw it: points, outline and table. */
-struct ObservedObject {
+struct PCL_SQ_EXPORTS ObservedObject {
   Eigen::Matrix3Xd points;   ///< to be fitted, free of rim and gross outliers [m]
   std::vector<int> columns;  ///< the points' columns in the input
   PinholeCamera camera;      ///< real, or virtual for bare points
   std::vector<ContourPoint> contour;
   OutlineSource outline = OutlineSource::NONE;
-  double outline_sigma = 1.0;    ///< [px]
-  double outline_dilation = 0.7; ///< sigma [px]
+  double outline_sigma = 0.6;    ///< [px]
+  double outline_dilation = 0.35;///< sigma [px]
   double outline_offset = 0.0;   ///< expected dilation [px]
   std::optional<TableModel> table;
   double effective_points = 0.0; ///< independent ones among the points
