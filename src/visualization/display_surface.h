@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/exports.h"
 #include "pcl_sq/superquadric.h"
 
 #include <array>
@@ -24,12 +23,11 @@ struct DisplaySurface {
 };
 
 /** \param[in] steps points along a quarter of a profile, at least 4 */
-PCL_SQ_EXPORTS DisplaySurface displaySurface(const Superquadric& superquadric,
-                                             int steps = 28);
+DisplaySurface displaySurface(const Superquadric& superquadric, int steps = 28);
 
 /** \brief Ends of segments (2i and 2i + 1) of the outline: where the surface turns away
  * from the eye. \param[in] to_eye direction from each vertex to the eye */
-PCL_SQ_EXPORTS std::vector<Eigen::Vector3d>
-outline(const DisplaySurface& surface, const std::vector<Eigen::Vector3d>& to_eye);
+std::vector<Eigen::Vector3d> outline(const DisplaySurface& surface,
+                                     const std::vector<Eigen::Vector3d>& to_eye);
 
 } // namespace pcl_sq

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/exports.h"
-
 #include <string>
 
 namespace pcl_sq {
@@ -15,6 +13,6 @@ struct ScaleBar {
 
 /** \brief The longest of 1, 2 and 5 times a power of ten that is at most \a longest
  * [m]. \pre longest is positive and finite */
-PCL_SQ_EXPORTS ScaleBar roundScaleBar(double longest);
+ScaleBar roundScaleBar(double longest);
 
 } // namespace pcl_sq
