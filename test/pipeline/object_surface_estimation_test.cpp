@@ -179,9 +179,10 @@ TEST(ObjectSurfaceEstimation, HugeCoordinatesAndHugeGridsAreRefusedOrSurvived) {
   Estimation estimation;
   estimation.setInputCloud(cloud);
   MultiSuperquadric model;
-  if (estimation.estimate(model))
-    for (const Superquadric& s : model.parts)
-      EXPECT_TRUE(s.isValid());
+  const bool found = estimation.estimate(model);
+  EXPECT_EQ(found, !model.empty());
+  for (const Superquadric& s : model.parts)
+    EXPECT_TRUE(s.isValid());
 }
 
 TEST(ObjectSurfaceEstimation, InvalidOptionsAreRefusedAndTheOldOnesKept) {

@@ -44,12 +44,8 @@ template <typename PointT>
 bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
   model = {};
   report_ = {};
-  if (!initCompute()) {
-    PCL_WARN(
-        "[pcl_sq::ObjectSurfaceEstimation::estimate] there is no input cloud; call "
-        "setInputCloud first.\n");
-    return false;
-  }
+  if (!initCompute())
+    return fail("there is no input cloud; call setInputCloud first");
   StageTimer timer(report_.timings_ms);
   // II-B: the points of the query region
   pcl::IndicesPtr object(new pcl::Indices);
@@ -173,12 +169,9 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
   }
   if (!model.empty())
     return true;
-  PCL_WARN(
-      "[pcl_sq::ObjectSurfaceEstimation::estimate] %zu points give no superquadric "
-      "(%s): they must span a volume.\n",
-      object->size(),
-      toString(report_.parts.front().fit.termination));
-  return false;
+  return fail(std::to_string(object->size()) + " points give no superquadric (" +
+              toString(report_.parts.front().fit.termination) +
+              "): at least ten are needed, and they must span a volume");
 }
 
 template <typename PointT>
