@@ -1,9 +1,13 @@
-# pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
+# SPDX-License-Identifier: BSD-3-Clause
+# pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...]
+#   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...])
 # One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
 # objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
 # library hides.
+# FIND, PKGCONFIG and DEBIAN name what a user of the component's headers needs: one quoted
+# argument list of find_dependency() each, modules of pkg-config, packages of Debian.
 function(pcl_sq_component name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN" ${ARGN})
   set(target pcl_sq_${name})
   add_library(${target}_objects OBJECT ${ARG_SOURCES})
   set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -25,8 +29,15 @@ function(pcl_sq_component name)
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   endforeach()
   install(TARGETS ${target} EXPORT pcl_sq_${name}_targets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      COMPONENT ${name} NAMELINK_COMPONENT ${name}_dev
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})
-  install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}
+  install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}_dev
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_sq)
+
+  # read by PclSqPackage.cmake
+  set_property(GLOBAL APPEND PROPERTY PCL_SQ_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_FIND "${ARG_FIND}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_PKGCONFIG "${ARG_PKGCONFIG}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_DEBIAN "${ARG_DEBIAN}")
 endfunction()

@@ -17,8 +17,9 @@ PaperProblem::toLocal(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
       continue;
     const Eigen::Vector3d y = pose.toLocal(points.col(i));
     for (int k = 0; k < 3; ++k)
-      local.log_coordinate[k].push_back(std::log(std::max(std::abs(y[k]), TINY)));
-    local.radius.push_back(y.norm());
+      local.log_coordinate[k].push_back(
+          float(std::log(std::max(std::abs(y[k]), TINY))));
+    local.radius.push_back(float(y.norm()));
   }
   return local;
 }
@@ -66,9 +67,9 @@ PaperProblem::Normal PaperProblem::linearise(const Eigen::Vector3d& x) const {
   const double volume_factor = s.semi_axes.prod();
   const double paper_factor = std::sqrt(std::sqrt(volume_factor)); // root of Eq. (7)'s
   const double solina_factor = std::sqrt(volume_factor);
-  const std::vector<double>& log_x = points_.log_coordinate[shift_ % 3];
-  const std::vector<double>& log_y = points_.log_coordinate[(1 + shift_) % 3];
-  const std::vector<double>& log_z = points_.log_coordinate[(2 + shift_) % 3];
+  const std::vector<float>& log_x = points_.log_coordinate[shift_ % 3];
+  const std::vector<float>& log_y = points_.log_coordinate[(1 + shift_) % 3];
+  const std::vector<float>& log_z = points_.log_coordinate[(2 + shift_) % 3];
   Normal normal;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     LogGauge g;

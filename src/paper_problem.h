@@ -17,8 +17,8 @@ class PaperProblem {
 public:
   /** \brief Logarithms of the folded coordinates in the frame of the fit. */
   struct LocalPoints {
-    std::array<std::vector<double>, 3> log_coordinate; ///< ln |y_k|
-    std::vector<double> radius;                        ///< |y| [m]
+    std::array<std::vector<float>, 3> log_coordinate; ///< ln |y_k|
+    std::vector<float> radius;                        ///< |y| [m]
     std::size_t size() const { return radius.size(); }
   };
 
