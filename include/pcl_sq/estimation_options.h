@@ -35,7 +35,8 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   PaperFitOptions paper_fit;
   double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
 
-  /** \brief Whether every setting is in its range. \param[out] why the first that is not */
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;
 };
 
