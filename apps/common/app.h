@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace pcl_sq::app {
+
+/** \brief Exit codes of every program. */
+enum ExitCode { DONE = 0, FAILED = 1, BAD_COMMAND_LINE = 2 };
+
+/** \brief Something the user must be told in one sentence; the program ends with 1. */
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief A contradiction among options found after parsing; the program ends with 2.
+ */
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief The frame of a main(): adds --version and -q, parses, runs, and turns every
+ * error into one sentence on stderr and an exit code.
+ * \param[in] configure adds the program's own options
+ * \param[in] body the work; returns an exit code */
+int run(int argc,
+        char** argv,
+        const std::string& name,
+        const std::string& description,
+        const std::string& examples,
+        const std::function<void(CLI::App&)>& configure,
+        const std::function<int()>& body);
+
+/** \brief Whether -q/--quiet was given. */
+bool quiet();
+
+/** \brief A progress bar on stderr; silent when stderr is no terminal or -q was given.
+ */
+class Progress {
+public:
+  Progress(std::string what, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  /** \brief Marks \a done of the total as finished; may be called from any thread. */
+  void update(std::size_t done);
+
+private:
+  std::string what_;
+  std::size_t total_;
+  bool visible_;
+};
+
+} // namespace pcl_sq::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/fit_options.h"
+#include "pcl_sq/prism.h"
+
+namespace pcl_sq {
+
+/** \brief How an object is split before fitting. */
+enum class Decomposition {
+  NONE,  ///< one superquadric for all points
+  PRISMS ///< one for each rectangular prism of voxels (III-C)
+};
+
+/** \brief Points whose principal axes turn a part's superquadric. */
+enum class PcaScope {
+  OBJECT, ///< one rotation for all parts, as the paper's Table I has it
+  PART    ///< each part its own
+};
+
+/** \brief Where a part's superquadric is centred. */
+enum class CenterRule {
+  REGION, ///< x, y of the prism, z of the whole region's depth (III-B, E10)
+  MEAN    ///< the mean of the part's points
+};
+
+/** \brief Settings of ObjectSurfaceEstimation. */
+struct PCL_SQ_EXPORTS EstimationOptions {
+  Decomposition decomposition = Decomposition::PRISMS;
+  VoxelOptions voxels;
+  PrismOptions prisms;
+  bool exclusive_points = false; ///< whether a point counts for its smallest prism only
+  PcaScope pca = PcaScope::OBJECT;
+  CenterRule center = CenterRule::REGION;
+  PaperFitOptions paper_fit;
+  double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
+
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
+  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
+};
+
+} // namespace pcl_sq

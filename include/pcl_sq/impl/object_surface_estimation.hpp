@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/adaptive_voxel_grid.h"
+#include "pcl_sq/fit_parts.h"
+#include "pcl_sq/object_surface_estimation.h"
+#include "pcl_sq/prism_segmentation.h"
+#include "pcl_sq/roi_crop.h"
+#include "pcl_sq/stage_timer.h"
+
+#include <pcl/console/print.h>
+
+#include <utility>
+
+namespace pcl_sq {
+
+namespace detail {
+
+/** \brief The chosen points as columns. */
+template <typename PointT>
+Eigen::Matrix3Xd gatherPoints(const pcl::PointCloud<PointT>& cloud,
+                              const pcl::Indices& indices) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices.size()));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) =
+        cloud[indices[i]].getVector3fMap().template cast<double>();
+  return points;
+}
+
+} // namespace detail
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::setOptions(const EstimationOptions& options) {
+  std::string why;
+  if (options.isValid(&why))
+    options_ = options;
+  else
+    PCL_ERROR("[pcl_sq::ObjectSurfaceEstimation::setOptions] %s; the options stay as "
+              "they were.\n",
+              why.c_str());
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
+  model = {};
+  report_ = {};
+  if (!initCompute()) {
+    PCL_WARN(
+        "[pcl_sq::ObjectSurfaceEstimation::estimate] there is no input cloud; call "
+        "setInputCloud first.\n");
+    return false;
+  }
+  StageTimer timer(report_.timings_ms);
+  // II-B: the points of the query region
+  pcl::IndicesPtr object(new pcl::Indices);
+  bool found = timer.run("crop", [&] { return cropRegion(object); });
+  // III-C, Figs. 3 and 4: voxels relative to the region, prisms of connected voxels
+  std::vector<pcl::PointIndices> clusters;
+  found = found && timer.run("decompose", [&] { return decompose(object, clusters); });
+  // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
+  found = found && timer.run("fit", [&] { return fitParts(object, clusters, model); });
+  // III-C, end: the points on the union's surface are where a hand may touch
+  if (found)
+    timer.run("grasp_points", [&] {
+      findGraspPoints(object, model);
+      return true;
+    });
+  deinitCompute();
+  return found;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
+  Eigen::AlignedBox3d box;
+  if (has_region_) {
+    RoiCrop<PointT> crop;
+    crop.setInputCloud(input_);
+    crop.setIndices(indices_);
+    crop.setRegion(region_);
+    crop.filter(*object);
+    box = Eigen::AlignedBox3d(region_.min, region_.max);
+  } else {
+    for (const auto index : *indices_) {
+      const auto point = (*input_)[index].getVector3fMap();
+      if (!point.allFinite())
+        continue;
+      object->push_back(index);
+      box.extend(point.template cast<double>());
+    }
+  }
+  report_.region_points = object->size();
+  if (object->empty()) {
+    PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] no finite point lies in the "
+             "region; check the box against the cloud's extent.\n");
+    return false;
+  }
+  report_.region.min = box.min();
+  report_.region.max = box.max();
+  return true;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::decompose(
+    const pcl::IndicesPtr& object, std::vector<pcl::PointIndices>& clusters) {
+  if (options_.decomposition == Decomposition::NONE) {
+    clusters.resize(1);
+    clusters[0].header = input_->header;
+    clusters[0].indices = *object;
+    return true;
+  }
+  AdaptiveVoxelGrid<PointT> grid;
+  grid.setInputCloud(input_);
+  grid.setIndices(object);
+  grid.setRegion(report_.region);
+  grid.setOptions(options_.voxels);
+  pcl::PointCloud<PointT> centroids;
+  grid.filter(centroids);
+  report_.voxels = grid.getVoxelLayout();
+  if (report_.voxels.empty())
+    return false; // the grid has said why
+
+  PrismSegmentation<PointT> segmentation;
+  segmentation.setInputCloud(input_);
+  segmentation.setIndices(object);
+  segmentation.setVoxelLayout(report_.voxels);
+  segmentation.setOptions(options_.prisms);
+  segmentation.setExclusive(options_.exclusive_points);
+  const bool found = segmentation.segment(clusters);
+  report_.prisms = segmentation.getPrisms();
+  return found;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
+                                               std::vector<pcl::PointIndices>& clusters,
+                                               MultiSuperquadric& model) {
+  std::vector<RoiBox> regions;
+  for (const Prism& prism : report_.prisms)
+    regions.push_back(prism.box);
+  if (regions.empty())
+    regions.push_back(report_.region);
+  const std::vector<PartFit> fits = pcl_sq::fitParts(
+      regions,
+      principalAxes(detail::gatherPoints(*input_, *object)),
+      [&](std::size_t part) {
+        return detail::gatherPoints(*input_, clusters[part].indices);
+      },
+      options_,
+      threads_);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    PartReport part;
+    part.indices = std::move(clusters[i]);
+    part.fit = fits[i].summary;
+    part.fit_ms = fits[i].milliseconds;
+    if (part.fit.ok()) {
+      part.model_part = static_cast<int>(model.size());
+      model.parts.push_back(part.fit.model);
+    }
+    report_.parts.push_back(std::move(part));
+  }
+  if (!model.empty())
+    return true;
+  PCL_WARN(
+      "[pcl_sq::ObjectSurfaceEstimation::estimate] %zu points give no superquadric "
+      "(%s): they must span a volume.\n",
+      object->size(),
+      toString(report_.parts.front().fit.termination));
+  return false;
+}
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::findGraspPoints(const pcl::IndicesPtr& object,
+                                                      const MultiSuperquadric& model) {
+  for (const auto index : *object) {
+    const Eigen::Vector3d p = (*input_)[index].getVector3fMap().template cast<double>();
+    for (const Superquadric& part : model.parts)
+      if (std::abs(part.gauge(p) - 1.0) <= options_.grasp_threshold) {
+        report_.grasp_indices.push_back(index);
+        break;
+      }
+  }
+}
+
+} // namespace pcl_sq

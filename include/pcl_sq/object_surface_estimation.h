@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/estimation_options.h"
+#include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/multi_superquadric.h"
+
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl_sq {
+
+/** \brief What happened to one part of the object. */
+struct PartReport {
+  pcl::PointIndices indices; ///< points it was fitted to, in the input cloud
+  FitSummary fit;
+  double fit_ms = 0.0; ///< time of the fit [ms]
+  int model_part = -1; ///< its index in the model; -1 if it gave none (see fit)
+};
+
+/** \brief What an estimation did, stage by stage. */
+struct EstimationReport {
+  RoiBox region;                 ///< box that was divided [m]
+  std::size_t region_points = 0; ///< finite points in it
+  VoxelLayout voxels;            ///< empty without a decomposition
+  std::vector<Prism> prisms;     ///< empty without a decomposition
+  std::vector<PartReport> parts; ///< one per prism; one without a decomposition
+  pcl::Indices grasp_indices;    ///< points on the union's surface
+  std::vector<std::pair<std::string, double>> timings_ms; ///< stage, [ms], in order
+};
+
+/** \brief Object surface by a union of superquadrics: the paper in one function.
+ *
+ * \code
+ * pcl_sq::ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
+ * estimation.setInputCloud(object_cloud);
+ * pcl_sq::MultiSuperquadric model;
+ * if (estimation.estimate(model))
+ *   std::cout << model.size() << " superquadrics\n";
+ * \endcode
+ * The camera looks along z with y down, as in every image-based cloud.
+ * \tparam PointT point type with x, y, z
+ * \ingroup pcl_sq
+ */
+template <typename PointT>
+class ObjectSurfaceEstimation : public pcl::PCLBase<PointT> {
+public:
+  using Ptr = pcl::shared_ptr<ObjectSurfaceEstimation<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const ObjectSurfaceEstimation<PointT>>;
+
+  /** \brief Sets all options; kept as they were, with a PCL_ERROR, if not valid. */
+  void setOptions(const EstimationOptions& options);
+  const EstimationOptions& getOptions() const { return options_; }
+
+  /** \brief Restricts the work to a box [m]; without it all finite points count. */
+  void setRegion(const RoiBox& region) {
+    region_ = region;
+    has_region_ = true;
+  }
+  void unsetRegion() { has_region_ = false; }
+  bool hasRegion() const { return has_region_; }
+  const RoiBox& getRegion() const { return region_; }
+
+  /** \brief Number of threads for the fits, 0 for all cores. The result does not depend
+   * on it. */
+  void setNumberOfThreads(unsigned int threads = 0) { threads_ = threads; }
+  unsigned int getNumberOfThreads() const { return threads_; }
+
+  /** \brief Estimates the object's surface.
+   * \param[out] model one superquadric per part; empty on failure
+   * \return false, with a PCL_WARN that says why, if the data give no model */
+  [[nodiscard]] bool estimate(MultiSuperquadric& model);
+
+  /** \brief What the last estimate() did. */
+  const EstimationReport& getReport() const { return report_; }
+
+protected:
+  using pcl::PCLBase<PointT>::input_;
+  using pcl::PCLBase<PointT>::indices_;
+  using pcl::PCLBase<PointT>::initCompute;
+  using pcl::PCLBase<PointT>::deinitCompute;
+
+private:
+  bool cropRegion(pcl::IndicesPtr& object);
+  bool decompose(const pcl::IndicesPtr& object,
+                 std::vector<pcl::PointIndices>& clusters);
+  bool fitParts(const pcl::IndicesPtr& object,
+                std::vector<pcl::PointIndices>& clusters,
+                MultiSuperquadric& model);
+  void findGraspPoints(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
+
+  EstimationOptions options_;
+  RoiBox region_;
+  bool has_region_ = false;
+  unsigned int threads_ = 0;
+  EstimationReport report_;
+};
+
+} // namespace pcl_sq
+
+#ifdef PCL_NO_PRECOMPILE
+#include "pcl_sq/impl/object_surface_estimation.hpp"
+#endif

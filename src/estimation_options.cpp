@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/estimation_options.h"
+
+#include "option_check.h"
+
+namespace pcl_sq {
+
+bool EstimationOptions::isValid(std::string* why) const {
+  if (!voxels.isValid(why) || !prisms.isValid(why) || !paper_fit.isValid(why))
+    return false;
+  detail::OptionCheck check(why);
+  check.inRange("grasp_threshold", grasp_threshold, 1e-9, 1.0);
+  return check.passed();
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The paper's fit, III-B: pose, a1 and a2 are known, (e1, e2, a3) by
+// Levenberg-Marquardt.
+#include "paper_problem.h"
+#include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/multi_superquadric.h"
+#include "point_set.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <vector>
+
+namespace pcl_sq {
+
+namespace {
+
+constexpr std::size_t MIN_POINTS = 10; ///< for three parameters and some noise
+constexpr double COST_TOLERANCE = 1e-7;
+constexpr double STEP_TOLERANCE = 1e-6; ///< exponents and ln a3 are of order one
+constexpr double MAX_DAMPING = 1e10;
+
+using detail::PaperProblem;
+
+/** \brief Levenberg-Marquardt with Marquardt's scaling; bounds by projection, a
+ * parameter at its bound is frozen while the gradient pushes outwards. */
+FitSummary minimise(const PaperProblem& problem,
+                    const Superquadric& start,
+                    const PaperFitOptions& options) {
+  FitSummary summary;
+  Eigen::Vector3d x = problem.clamp(problem.parametersOf(start));
+  PaperProblem::Normal normal = problem.linearise(x);
+  double damping = 1e-3;
+  summary.termination = Termination::MAX_ITERATIONS;
+  while (summary.iterations < options.max_iterations) {
+    Eigen::Matrix3d hessian = normal.hessian;
+    Eigen::Vector3d gradient = normal.gradient;
+    for (int k = 0; k < 3; ++k)
+      if (problem.pushesOutwards(x, gradient, k)) {
+        hessian.row(k).setZero();
+        hessian.col(k).setZero();
+        hessian(k, k) = 1.0;
+        gradient[k] = 0.0;
+      }
+    if (gradient.cwiseAbs().maxCoeff() <= 1e-12 * (1e-300 + normal.cost)) {
+      summary.termination = Termination::GRADIENT_TOO_SMALL;
+      break;
+    }
+    ++summary.iterations;
+    const Eigen::Vector3d scaling =
+        hessian.diagonal().cwiseMax(1e-12 * hessian.trace());
+    hessian += damping * Eigen::Matrix3d(scaling.asDiagonal());
+    const Eigen::Vector3d candidate = problem.clamp(x - hessian.ldlt().solve(gradient));
+    if ((candidate - x).cwiseAbs().maxCoeff() < STEP_TOLERANCE) {
+      summary.termination = Termination::STEP_TOO_SMALL;
+      break;
+    }
+    const PaperProblem::Normal next = problem.linearise(candidate);
+    if (!(next.cost < normal.cost)) {
+      damping *= 6.0;
+      if (damping > MAX_DAMPING) {
+        summary.termination = Termination::DAMPING_TOO_LARGE;
+        break;
+      }
+      continue;
+    }
+    const bool converged = normal.cost - next.cost < COST_TOLERANCE * normal.cost;
+    x = candidate;
+    normal = next;
+    damping = std::max(0.2 * damping, 1e-12);
+    if (converged) {
+      summary.termination = Termination::COST_CHANGE_TOO_SMALL;
+      break;
+    }
+  }
+  summary.model = problem.superquadricAt(x);
+  summary.distortion = normal.cost;
+  return summary;
+}
+
+/** \brief The same body's frame with its axes renamed cyclically. */
+Superquadric turned(const Superquadric& s, int shift) {
+  Superquadric t = s;
+  for (int k = 0; k < 3; ++k) {
+    t.rotation.col(k) = s.rotation.col((k + shift) % 3);
+    t.semi_axes[k] = s.semi_axes[(k + shift) % 3];
+  }
+  return t;
+}
+
+} // namespace
+
+Superquadric initialSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                 const Eigen::Vector3d& center,
+                                 const Eigen::Matrix3d& rotation,
+                                 double depth,
+                                 const PaperFitOptions& options) {
+  Superquadric s;
+  s.center = center;
+  s.rotation = rotation;
+  s.semi_axes.setConstant(0.5 * depth);
+  std::vector<double> along;
+  along.reserve(points.cols());
+  for (int axis = 0; axis < 2; ++axis) {
+    along.clear();
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      if (points.col(i).allFinite())
+        along.push_back(rotation.col(axis).dot(points.col(i) - center));
+    if (along.empty())
+      continue;
+    const double share =
+        options.extents == Extents::QUANTILES ? std::max(options.quantile, 0.0) : 0.0;
+    const auto cut = static_cast<std::size_t>(share * double(along.size() - 1));
+    const auto low = along.begin() + cut, high = along.end() - 1 - cut;
+    std::nth_element(along.begin(), low, along.end());
+    const double smallest = *low;
+    std::nth_element(along.begin(), high, along.end());
+    s.semi_axes[axis] = 0.5 * (*high - smallest);
+  }
+  // no axis may vanish: a face seen head-on has no depth of its own
+  const double floor = 1e-3 * s.semi_axes.maxCoeff();
+  s.semi_axes = s.semi_axes.cwiseMax(floor);
+  return s;
+}
+
+FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                const Superquadric& initial,
+                                const PaperFitOptions& options) {
+  FitSummary best;
+  best.model = initial;
+  if (!options.isValid() || !initial.isValid()) {
+    best.termination = Termination::INVALID_OPTIONS;
+    return best;
+  }
+  const PaperProblem::LocalPoints local = PaperProblem::toLocal(points, initial);
+  best.points = local.size();
+  if (local.size() < MIN_POINTS) {
+    best.termination = Termination::TOO_FEW_POINTS;
+    return best;
+  }
+  if (detail::spannedDimensions(points) < 3) {
+    best.termination = Termination::DEGENERATE;
+    return best;
+  }
+  const int turns = options.axis_assignment == AxisAssignment::BEST_OF_3 ? 3 : 1;
+  int iterations = 0;
+  for (int shift = 0; shift < turns; ++shift) {
+    const int free_axis = (2 - shift + 3) % 3; // a3, the depth, wherever it went
+    const Superquadric start = turned(initial, shift);
+    const PaperProblem problem(local, start, shift, free_axis, options);
+    FitSummary summary = minimise(problem, start, options);
+    iterations += summary.iterations;
+    if (shift == 0 || summary.distortion < best.distortion)
+      best = summary;
+  }
+  best.iterations = iterations;
+  best.points = local.size();
+  const MultiSuperquadric single{{best.model}};
+  best.distortion = single.distortion(points);
+  best.rms_distance = single.rmsDistance(points);
+  return best;
+}
+
+bool FitSummary::ok() const {
+  return termination != Termination::NOT_RUN &&
+         termination != Termination::TOO_FEW_POINTS &&
+         termination != Termination::DEGENERATE &&
+         termination != Termination::INVALID_OPTIONS;
+}
+
+const char* toString(Termination termination) {
+  switch (termination) {
+  case Termination::NOT_RUN:
+    return "NOT_RUN";
+  case Termination::COST_CHANGE_TOO_SMALL:
+    return "COST_CHANGE_TOO_SMALL";
+  case Termination::STEP_TOO_SMALL:
+    return "STEP_TOO_SMALL";
+  case Termination::GRADIENT_TOO_SMALL:
+    return "GRADIENT_TOO_SMALL";
+  case Termination::MAX_ITERATIONS:
+    return "MAX_ITERATIONS";
+  case Termination::DAMPING_TOO_LARGE:
+    return "DAMPING_TOO_LARGE";
+  case Termination::TOO_FEW_POINTS:
+    return "TOO_FEW_POINTS";
+  case Termination::DEGENERATE:
+    return "DEGENERATE";
+  case Termination::INVALID_OPTIONS:
+    return "INVALID_OPTIONS";
+  }
+  return "UNKNOWN";
+}
+
+} // namespace pcl_sq
