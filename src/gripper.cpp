@@ -84,26 +84,42 @@ bool Gripper::preset(const std::string& name, Gripper& gripper) {
   return false;
 }
 
+namespace {
+
+/** \brief Turn about the approach from the first finger to another: two fingers face
+ * each other, three stand 120 degrees apart. */
+Eigen::Matrix3d fingerTurn(int fingers, int finger) {
+  const double cosine = finger == 0 ? 1.0 : fingers == 2 ? -1.0 : -0.5;
+  const double sine = finger == 0 || fingers == 2 ? 0.0
+                      : finger == 1               ? 0.5 * std::sqrt(3.0)
+                                                  : -0.5 * std::sqrt(3.0);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+  return turn;
+}
+
+} // namespace
+
+Eigen::Vector3d Gripper::fingerDirection(const Eigen::Matrix3d& rotation,
+                                         int finger) const {
+  return rotation * fingerTurn(fingers, finger).col(1);
+}
+
 std::vector<OrientedBox> Gripper::boxes(const Eigen::Vector3d& position,
                                         const Eigen::Matrix3d& rotation,
-                                        double width,
+                                        const std::vector<double>& reach,
                                         double opening,
                                         double retreat) const {
   const double tip = 0.5 * pad_length, palm = tip - finger_length;
   std::vector<OrientedBox> all(std::size_t(fingers) + 1);
   for (int i = 0; i < fingers; ++i) {
-    const double angle = 2.0 * M_PI * i / fingers;
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
-        std::cos(angle);
     OrientedBox& finger = all[std::size_t(i)];
-    finger.rotation = rotation * turn;
+    finger.rotation = rotation * fingerTurn(fingers, i);
     finger.half_sizes =
         0.5 * Eigen::Vector3d(finger_width, finger_thickness + opening, finger_length);
+    const double outwards = reach[std::size_t(i)] + finger.half_sizes.y();
     finger.center =
-        position + finger.rotation * Eigen::Vector3d(0.0,
-                                                     0.5 * width + finger.half_sizes.y(),
-                                                     0.5 * (tip + palm));
+        position + finger.rotation * Eigen::Vector3d(0.0, outwards, 0.5 * (tip + palm));
   }
   OrientedBox& hand = all.back();
   hand.rotation = rotation;

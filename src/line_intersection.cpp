@@ -9,7 +9,7 @@ namespace pcl_sq {
 
 namespace {
 
-constexpr int MAX_STEPS = 80;         ///< a tangential line converges linearly
+constexpr int MAX_STEPS = 80;        ///< a tangential line converges linearly
 constexpr double ON_SURFACE = 1e-12; ///< G - 1 that counts as on the surface
 
 /** \brief The line in axes in which the superquadric's box is the unit cube. */

@@ -17,19 +17,29 @@ Eigen::Vector3d farthest(const OrientedBox& box, const Eigen::Vector3d& n) {
   return box.center + box.rotation * local;
 }
 
-/** \brief Whether the boxes in their own axes are apart by a face normal of either:
- * cheap, and enough for most pairs. */
-bool apartByFaces(const OrientedBox& box, const Superquadric& s, double clearance) {
-  const Eigen::Matrix3d between = box.rotation.transpose() * s.rotation;
-  const Eigen::Matrix3d size = between.cwiseAbs();
+/** \brief Whether the box and the superquadric's own box are apart along a face normal
+ * of either: no power needed, and enough for most pairs. \param[out] axis
+ * the box's normal with the largest gap */
+bool apartByFaces(const OrientedBox& box,
+                  const Superquadric& s,
+                  double clearance,
+                  Eigen::Index& axis) {
+  const Eigen::Matrix3d size = (box.rotation.transpose() * s.rotation).cwiseAbs();
   const Eigen::Vector3d offset = s.center - box.center;
-  const Eigen::Array3d in_box = (box.rotation.transpose() * offset).cwiseAbs();
-  if ((in_box > (box.half_sizes + size * s.semi_axes).array() + clearance).any())
+  const Eigen::Array3d gaps = (box.rotation.transpose() * offset).cwiseAbs().array() -
+                              (box.half_sizes + size * s.semi_axes).array();
+  if (gaps.maxCoeff(&axis) > clearance)
     return true;
-  const Eigen::Array3d in_superquadric = (s.rotation.transpose() * offset).cwiseAbs();
-  return (in_superquadric >
+  return ((s.rotation.transpose() * offset).cwiseAbs().array() >
           (s.semi_axes + size.transpose() * box.half_sizes).array() + clearance)
       .any();
+}
+
+/** \brief Point of the box nearest to another. */
+Eigen::Vector3d nearest(const OrientedBox& box, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d local = box.rotation.transpose() * (point - box.center);
+  return box.center +
+         box.rotation * local.cwiseMax(-box.half_sizes).cwiseMin(box.half_sizes);
 }
 
 /** \brief Gilbert-Johnson-Keerthi. \param[in] enough distance from which the pair
@@ -79,9 +89,16 @@ double distance(const OrientedBox& box, const Superquadric& superquadric) {
 bool collides(const OrientedBox& box,
               const Superquadric& superquadric,
               double clearance) {
-  if (apartByFaces(box, superquadric, clearance))
+  Eigen::Index axis;
+  if (apartByFaces(box, superquadric, clearance, axis))
     return false;
-  if (superquadric.gauge(box.center) <= 1.0)
+  // a gripper's pads are tangent planes: their normal separates most of what is left
+  Eigen::Vector3d n = box.rotation.col(axis);
+  if (n.dot(superquadric.center - box.center) < 0.0)
+    n = -n;
+  if (n.dot(superquadric.center) - superquadric.support(n) - box.support(n) > clearance)
+    return false;
+  if (superquadric.gauge(nearest(box, superquadric.center)) <= 1.0)
     return true;
   const double enough = std::max(clearance, 1e-9);
   return gjk(box, superquadric, enough, false) < enough;

@@ -19,18 +19,18 @@ struct GraspWeights {
 
 /** \brief Settings of the GraspPlanner. */
 struct PCL_SQ_EXPORTS GraspPlannerOptions {
-  std::size_t count = 100;   ///< most grasps to return, [1, 10000]
-  double friction = 0.5;     ///< coefficient between finger and object, [0.05, 2]
-  int surface_samples = 4;   ///< rows of samples in an eighth of a face, [1, 20]
-  int approaches = 12;       ///< directions tried about a closing line, [1, 72]
-  double clearance = 0.002;  ///< least distance of hand to table and obstacles [m]
-  double compliance = 0.002; ///< how far the object may press into the pads [m]
-  double opening = 0.005;    ///< gap on each side of the object while approaching [m]
-  double retreat = 0.10;     ///< straight approach kept free of collision [m]
-  double shift = 0.004;      ///< of the lines in GraspScores::robustness [m]
-  double min_distance = 0.015;       ///< between tool centre points of grasps told apart
-                                     ///< by neither direction [m]
-  double min_angle = 0.35;           ///< between their directions [rad]
+  std::size_t count = 100;     ///< most grasps to return, [1, 10000]
+  double friction = 0.5;       ///< coefficient between finger and object, [0.05, 2]
+  int surface_samples = 3;     ///< rows of samples in an eighth of a face, [1, 20]
+  int approaches = 12;         ///< directions tried about a closing line, [1, 72]
+  double clearance = 0.002;    ///< least distance of hand to table and obstacles [m]
+  double compliance = 0.002;   ///< how far the object may press into the pads [m]
+  double opening = 0.005;      ///< gap on each side of the object while approaching [m]
+  double retreat = 0.10;       ///< straight approach kept free of collision [m]
+  double shift = 0.004;        ///< of the lines in GraspScores::robustness [m]
+  double min_distance = 0.015; ///< between tool centre points of grasps told apart
+                               ///< by neither direction [m]
+  double min_angle = 0.35;     ///< between their directions [rad]
   double cloud_tolerance = 0.010;    ///< points nearer to the model belong to it [m]
   double observed_distance = 0.006;  ///< of a point that makes a contact observed [m]
   int min_obstacle_points = 3;       ///< in a cube of 5 mm, fewer are noise, [1, 1000]
@@ -58,15 +58,15 @@ struct GraspScene {
 
 /** \brief Why candidates were not returned. */
 struct GraspRejections {
-  std::size_t candidates = 0;  ///< closing lines, or contact sets of three fingers
-  std::size_t too_wide = 0;    ///< wider than the gripper opens
-  std::size_t too_narrow = 0;  ///< thinner than the gripper closes
-  std::size_t slipping = 0;    ///< a normal outside of the friction cone
-  std::size_t poses = 0;       ///< hand poses tested for collision
-  std::size_t table = 0;       ///< poses in collision with the table
-  std::size_t object = 0;      ///< poses in collision with the object itself
-  std::size_t obstacle = 0;    ///< poses in collision with another object
-  std::size_t cloud = 0;       ///< poses in collision with measured points
+  std::size_t candidates = 0; ///< closing lines, or contact sets of three fingers
+  std::size_t too_wide = 0;   ///< wider than the gripper opens
+  std::size_t too_narrow = 0; ///< thinner than the gripper closes
+  std::size_t slipping = 0;   ///< a normal outside of the friction cone
+  std::size_t poses = 0;      ///< hand poses tested for collision
+  std::size_t table = 0;      ///< poses in collision with the table
+  std::size_t object = 0;     ///< poses in collision with the object itself
+  std::size_t obstacle = 0;   ///< poses in collision with another object
+  std::size_t cloud = 0;      ///< poses in collision with measured points
 };
 
 /** \brief What the planner found. */

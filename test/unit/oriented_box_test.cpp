@@ -15,8 +15,9 @@ OrientedBox randomBox(Random& random, const Eigen::Vector3d& near, double reach)
   OrientedBox box;
   box.center = near + random.direction() * random.uniform(0.0, reach);
   box.rotation = random.rotation();
-  box.half_sizes = {
-      random.uniform(0.002, 0.1), random.uniform(0.002, 0.1), random.uniform(0.002, 0.1)};
+  box.half_sizes = {random.uniform(0.002, 0.1),
+                    random.uniform(0.002, 0.1),
+                    random.uniform(0.002, 0.1)};
   return box;
 }
 
@@ -138,9 +139,8 @@ TEST(LineIntersection, EndsLieOnTheSurfaceAndTheMiddleInside) {
       EXPECT_LE(interval.enter, interval.leave);
       EXPECT_NEAR(s.gauge(origin + interval.enter * direction), 1.0, 1e-9);
       EXPECT_NEAR(s.gauge(origin + interval.leave * direction), 1.0, 1e-9);
-      EXPECT_LE(
-          s.gauge(origin + 0.5 * (interval.enter + interval.leave) * direction),
-          1.0 + 1e-9);
+      EXPECT_LE(s.gauge(origin + 0.5 * (interval.enter + interval.leave) * direction),
+                1.0 + 1e-9);
     } else {
       for (int k = -50; k <= 50; ++k) {
         EXPECT_GT(s.gauge(origin + 0.02 * k * direction), 1.0);
