@@ -128,20 +128,20 @@ FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points
                                 const PaperFitOptions& options) {
   FitSummary best;
   best.model = initial;
-  if (!options.isValid() || !initial.isValid()) {
-    best.termination = Termination::INVALID_OPTIONS;
+  const auto stop = [&best](Termination termination) {
+    best.termination = termination;
     return best;
-  }
+  };
+  if (!options.isValid())
+    return stop(Termination::INVALID_OPTIONS);
+  best.points = detail::momentsOf(points).count;
+  if (best.points < MIN_POINTS)
+    return stop(Termination::TOO_FEW_POINTS);
+  if (detail::spannedDimensions(points) < 3)
+    return stop(Termination::DEGENERATE);
+  if (!initial.isValid())
+    return stop(Termination::INVALID_OPTIONS);
   const PaperProblem::LocalPoints local = PaperProblem::toLocal(points, initial);
-  best.points = local.size();
-  if (local.size() < MIN_POINTS) {
-    best.termination = Termination::TOO_FEW_POINTS;
-    return best;
-  }
-  if (detail::spannedDimensions(points) < 3) {
-    best.termination = Termination::DEGENERATE;
-    return best;
-  }
   const int turns = options.axis_assignment == AxisAssignment::BEST_OF_3 ? 3 : 1;
   int iterations = 0;
   for (int shift = 0; shift < turns; ++shift) {

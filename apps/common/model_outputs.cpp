@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app.h"
+#include "files.h"
+#include "model_options.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <cstdio>
+
+namespace pcl_sq::app {
+
+namespace {
+
+void writeGraspPoints(const std::string& path,
+                      const LoadedCloud& input,
+                      const pcl::Indices& indices) {
+  pcl::PointCloud<pcl::PointXYZRGBA> points(*input.cloud, indices);
+  if (points.empty())
+    throw Failure("no point lies on the model's surface; '" + path +
+                  "' is not written.");
+  writeAtomically(path, [&](const std::string& temporary) {
+    if (pcl::PCDWriter().writeBinary(temporary, points) != 0)
+      throw Failure("cannot write '" + path + "'.");
+  });
+}
+
+} // namespace
+
+void writeOutputs(const LoadedCloud& input,
+                  const ModelResult& result,
+                  const ModelOptions& options) {
+  if (!options.output.empty())
+    writeTextFile(options.output, toJson(result.file) + "\n");
+  if (!options.grasp_points.empty())
+    writeGraspPoints(options.grasp_points, input, result.report.grasp_indices);
+}
+
+void printSummary(const ModelResult& result) {
+  const ModelFile& file = result.file;
+  std::printf("%s: %zu points, %zu of them the object, %zu superquadric%s\n",
+              file.input_path.c_str(),
+              file.input_points,
+              result.report.region_points,
+              file.model.size(),
+              file.model.size() == 1 ? "" : "s");
+  std::printf("  part  points   size along its axes [mm]   e1    e2    rms [mm]\n");
+  for (std::size_t i = 0; i < file.model.size(); ++i) {
+    const Superquadric& s = file.model.parts[i];
+    const PartStatistics& statistics = file.statistics[i];
+    std::printf("  %4zu  %6zu   %7.1f %7.1f %7.1f   %4.2f  %4.2f  %7.2f\n",
+                i + 1,
+                statistics.points,
+                2e3 * s.semi_axes.x(),
+                2e3 * s.semi_axes.y(),
+                2e3 * s.semi_axes.z(),
+                s.epsilon1,
+                s.epsilon2,
+                1e3 * statistics.rms_distance);
+  }
+  std::printf(
+      "  distortion (paper's unit) %.3f, rms distance %.2f mm, %zu grasp points\n",
+      file.distortion * std::sqrt(1e9),
+      1e3 * file.rms_distance,
+      result.report.grasp_indices.size());
+  std::printf("  time:");
+  for (const auto& [stage, ms] : file.timings_ms)
+    std::printf(" %s %.1f ms", stage.c_str(), ms);
+  std::printf("\n");
+}
+
+} // namespace pcl_sq::app
