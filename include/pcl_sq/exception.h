@@ -18,11 +18,7 @@ class PCL_SQ_EXPORTS Exception : public pcl::PCLException {
 public:
   /** \param[in] sentence what is wrong and what to do, `[pcl_sq::Class::method] ...` */
   explicit Exception(const std::string& sentence)
-<<<<<<< HEAD
-  : pcl::PCLException(sentence), sentence_(sentence) {}
-=======
       : pcl::PCLException(sentence), sentence_(sentence) {}
->>>>>>> main
 
   /** \brief The sentence alone; PCL's own text starts with a place that is empty. */
   const char* what() const noexcept override { return sentence_.c_str(); }
