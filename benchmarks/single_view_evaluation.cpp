@@ -4,7 +4,6 @@
 // .json). Usage: single_view_evaluation [--no-mask] [--no-view] [--parts] [-v]
 //                [--kind NAME] FOLDER...
 #include "pcl_sq/fit_object.h"
-#include "pcl_sq/tabletop_segmentation.h"
 #include "truth_scores.h"
 
 #include <pcl/io/pcd_io.h>
@@ -101,14 +100,8 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
   const std::clock_t begin = std::clock();
   std::string why;
   ObjectFit fit;
-  bool ok = true;
-  if (c.height > 1 && c.view.mask.cells.empty()) {
-    TablePlane plane;
-    ok = findTabletopObject(
-        c.points, Eigen::Vector3f::Zero(), TabletopOptions(), plane, c.object, &why);
-  }
   ObservedObject observed;
-  ok = ok && observeObject(
+  const bool ok = observeObject(
                  c.points, c.width, c.height, c.object, c.view, observed, &why);
   const std::clock_t seen = std::clock();
   if (ok)

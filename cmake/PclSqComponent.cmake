@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...]
-#   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...])
+#   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...] [RECOMMENDS packages...])
 # One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
 # objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
 # library hides.
 # FIND, PKGCONFIG and DEBIAN name what a user of the component's headers needs: one quoted
-# argument list of find_dependency() each, modules of pkg-config, packages of Debian.
+# argument list of find_dependency() each, modules of pkg-config, packages of Debian. RECOMMENDS: Debian packages that the library itself uses
+# where they are installed.
 function(pcl_sq_component name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN;RECOMMENDS"
+    ${ARGN})
   set(target pcl_sq_${name})
   add_library(${target}_objects OBJECT ${ARG_SOURCES})
   set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -40,4 +42,5 @@ function(pcl_sq_component name)
   set_property(GLOBAL PROPERTY PCL_SQ_${name}_FIND "${ARG_FIND}")
   set_property(GLOBAL PROPERTY PCL_SQ_${name}_PKGCONFIG "${ARG_PKGCONFIG}")
   set_property(GLOBAL PROPERTY PCL_SQ_${name}_DEBIAN "${ARG_DEBIAN}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_RECOMMENDS "${ARG_RECOMMENDS}")
 endfunction()

@@ -82,6 +82,7 @@ bool findPlane(const std::vector<Eigen::Vector3d>& points,
     plane.offset = -plane.offset;
   }
   // neighbouring pixels share their errors: a tenth of the points counts
+  plane.noise = rms;
   plane.sigma = std::max(3.0 * rms / std::sqrt(0.1 * double(points.size())), 0.1 * rms);
   return true;
 }

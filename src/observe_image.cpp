@@ -210,11 +210,15 @@ bool observeImage(Observation& o, std::string& why) {
   out.outline = has_mask ? OutlineSource::MASK : OutlineSource::DEPTH;
   if (has_mask)
     out.pixels = o.view.mask;
-  else {
-    if (o.object.empty()) {
-      why = "an organized cloud without a mask needs the object's indices";
+  else if (o.object.empty()) {
+    out.table = o.view.table;
+    if (!findStandingObject(o.points, o.width, o.height, out.table, out.pixels)) {
+      why = "nothing was found that stands on a table; mark the object by a mask or a "
+            "region";
       return false;
     }
+    out.notes.push_back("the object is the largest thing that stands on the table");
+  } else {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)
       out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
@@ -236,7 +240,7 @@ bool observeImage(Observation& o, std::string& why) {
   measure(out);
   if (o.view.table)
     out.table = *o.view.table;
-  else if (o.view.find_table)
+  else if (!out.table && o.view.find_table)
     findTable(o, b);
   checkTable(out);
   out.outline_sigma = has_mask ? o.view.mask_sigma : 1.5;
@@ -244,8 +248,7 @@ bool observeImage(Observation& o, std::string& why) {
   out.outline_offset = has_mask ? 0.0 : FATTENING;
   // just above the table the cluster ends before the object does
   const double floor = has_mask || !out.table ? -1e300
-                                              : 4.0 * out.table->sigma +
-                                                    0.25 * out.extent;
+                                              : 3.0 * standingHeight(*out.table, out.depth);
   out.contour = contourOf(out.pixels, [&](int x, int y) {
     const int c = y * o.width + x;
     if (!has_mask && o.finite(c) && out.table->height(o.at(c)) < floor)

@@ -4,6 +4,8 @@
 
 #include "pcl_sq/object_view.h"
 
+#include <algorithm>
+
 namespace pcl_sq::detail {
 
 /** \brief Input and output of an observation. */
@@ -24,6 +26,11 @@ struct Observation {
 /** \brief Checks a table against the object's points; drops it with a note if they lie
  * below it. */
 void checkTable(ObservedObject& observed);
+
+/** \brief Points lower than this above a table may be the table's [m]. */
+inline double standingHeight(const TableModel& table, double depth) {
+  return std::max(4.0 * table.noise, 0.003 * depth);
+}
 
 /** \brief Extent and depth from the points. */
 void measure(ObservedObject& observed);

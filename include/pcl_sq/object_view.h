@@ -15,6 +15,7 @@ struct TableModel {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
   double offset = 0.0;                               ///< [m]
   double sigma = 1e-3; ///< standard deviation of its place below the object [m]
+  double noise = 1e-3; ///< root mean square distance of its points [m]
   double height(const Eigen::Vector3d& p) const { return normal.dot(p) + offset; }
 };
 
@@ -96,6 +97,17 @@ struct PCL_SQ_EXPORTS ObservedObject {
                                                  int width,
                                                  int height,
                                                  PinholeCamera& camera);
+
+/** \brief Finds the object that stands on a table in an organized cloud: pixels above
+ * the table that hang together without a jump in depth, the largest such region that
+ * the image border does not cut.
+ * \param[in,out] table used if set, found otherwise
+ * \return false if there is no table or nothing stands on it */
+[[nodiscard]] PCL_SQ_EXPORTS bool findStandingObject(const Eigen::Matrix3Xf& points,
+                                                     int width,
+                                                     int height,
+                                                     std::optional<TableModel>& table,
+                                                     CellMask& object);
 
 /** \brief The largest plane among the points, repeatable.
  * \param[in] inlier_distance [m]; 0: from the noise, about Z^2

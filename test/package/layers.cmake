@@ -18,7 +18,7 @@ function(forbid what regex)
 endfunction()
 
 set(public "${root}/include/pcl_sq")
-set(elements "roi_estimator|roi_crop|adaptive_voxel_grid|prism_segmentation|\
+set(elements "exception|roi_estimator|roi_crop|adaptive_voxel_grid|prism_segmentation|\
 sac_model_superquadric|grasp_point_filter|object_surface_estimation")
 
 file(GLOB core_headers "${public}/*.h" "${public}/impl/*.hpp")

@@ -27,16 +27,25 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   for (std::size_t i = 0; i < indices_->size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) =
         (*input_)[(*indices_)[i]].getVector3fMap();
+  std::vector<bool> candidates;
+  if (candidates_) {
+    std::vector<bool> of_cloud(input_->size(), false);
+    for (const auto index : *candidates_)
+      of_cloud[static_cast<std::size_t>(index)] = true;
+    for (const auto index : *indices_)
+      candidates.push_back(of_cloud[static_cast<std::size_t>(index)]);
+  }
   std::vector<int> columns;
-  std::string why;
+  failure_.clear();
   const bool found = findTabletopObject(points,
                                         input_->sensor_origin_.template head<3>(),
+                                        candidates,
                                         options_,
                                         plane_,
                                         columns,
-                                        &why);
+                                        &failure_);
   if (!found)
-    PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", why.c_str());
+    PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", failure_.c_str());
   object.reserve(columns.size());
   for (const int column : columns)
     object.push_back((*indices_)[column]);
