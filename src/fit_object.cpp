@@ -1,21 +1,120 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
+
+#include "object_piece.h"
+
+#include <algorithm>
 
 namespace pcl_sq {
 
+namespace {
+
+using namespace detail;
+
+constexpr double MIN_GAIN = 10.0;   ///< of the score, for one more part
+constexpr double GOOD_FIT = 1.35;   ///< cost per observation of a part that needs no cut
+constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
+
+struct Split {
+  Piece first, second;
+  double score = 1e300;
+};
+
+double observations(const PieceContext& context, const Piece& piece) {
+  return context.observed.effective_points * double(piece.points.size()) /
+         double(context.observed.points.cols());
+}
+
+Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
+  Split s;
+  s.first = cutPiece(context, piece, cut);
+  s.second = cutPiece(context, piece, cut.flipped());
+  if (s.first.points.empty() || s.second.points.empty())
+    return s;
+  if (s.first.points.size() < s.second.points.size())
+    std::swap(s.first, s.second);
+  fitPiece(context, s.first, true);
+  fitPiece(context, s.second, true);
+  s.score = s.first.score + s.second.score;
+  return s;
+}
+
+void fitInFull(const PieceContext& context, Split& s) {
+  fitPiece(context, s.first, false);
+  const bool round = s.first.fit.chosen.shape == ShapeClass::ROTATIONAL;
+  fitPiece(context, s.second, false, round ? &s.first.fit.fit.model : nullptr);
+  s.score = s.first.score + s.second.score;
+}
+
+/** \brief The best way to cut a piece in two; score 1e300 if there is none. */
+Split bestSplit(const PieceContext& context, const Piece& piece) {
+  std::vector<Split> splits;
+  for (const Cut& cut : proposeCuts(context, piece)) {
+    Split s = split(context, piece, cut);
+    if (s.score < 1e299)
+      splits.push_back(std::move(s));
+  }
+  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
+    return a.score < b.score;
+  });
+  Split best;
+  for (std::size_t i = 0; i < splits.size() && i < TRIED; ++i) {
+    fitInFull(context, splits[i]);
+    if (splits[i].score < best.score)
+      best = splits[i];
+  }
+  return best;
+}
+
+} // namespace
+
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
   ObjectFit fit;
-  SupportFitOptions single = options.fit;
-  single.effective_points = observed.effective_points;
-  single.max_semi_axis = 2.4 * observed.extent;
-  fit.parts.push_back(fitWithSupports(
-      observed.points,
-      observed.evidence(observed.contour, options.silhouette_lines, true),
-      single));
-  if (!fit.parts.front().fit.ok())
-    return {};
-  fit.model.parts.push_back(fit.parts.front().fit.model);
-  fit.labels.assign(std::size_t(observed.points.cols()), 0);
+  const double noise =
+      options.fit.noise > 0.0 ? options.fit.noise : localNoise(observed.points);
+  PieceContext context{observed, options, 0.0};
+  std::vector<Piece> pieces(1, wholePiece(context));
+  fitPiece(context, pieces[0], false);
+  if (!pieces[0].fit.fit.ok())
+    return fit;
+  const int wanted = options.parts > 0 ? options.parts : options.max_parts;
+  if (wanted > 1 && noise > 0.0) {
+    context.noise = std::min(noise, pieces[0].fit.noise);
+    fitPiece(context, pieces[0], false);
+    fit.single_bic = pieces[0].score;
+    while (int(pieces.size()) < wanted) {
+      Split best;
+      std::size_t which = 0;
+      double gain = options.parts > 0 ? -1e300 : MIN_GAIN;
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Piece& piece = pieces[i];
+        const bool good = piece.fit.chosen.cost <
+                          GOOD_FIT * observations(context, piece);
+        if (piece.final || (good && options.parts == 0))
+          continue;
+        Split s = bestSplit(context, piece);
+        if (piece.score - s.score > gain) {
+          gain = piece.score - s.score;
+          best = std::move(s);
+          which = i;
+        } else if (options.parts == 0)
+          piece.final = true;
+      }
+      if (best.score > 1e299)
+        break;
+      pieces[which] = best.first;
+      pieces.push_back(best.second);
+    }
+  }
+  fit.labels.assign(std::size_t(observed.points.cols()), -1);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    fit.bic += pieces[k].score;
+    fit.model.parts.push_back(pieces[k].fit.fit.model);
+    fit.parts.push_back(std::move(pieces[k].fit));
+    for (const int i : pieces[k].points)
+      fit.labels[std::size_t(i)] = int(k);
+  }
   return fit;
 }
 

@@ -110,12 +110,10 @@ std::vector<Superquadric> supportStarts(const SupportProblem& p) {
       addStarts(p, axes, shift, {{0.3, 1.0, false}, {1.0, 1.0, false}}, starts);
     addStarts(p, identity, 0, {{0.5, 0.5, false}}, starts);
   } else
-    for (int shift = 0; shift < 3; ++shift)
-      addStarts(p,
-                identity,
-                shift,
-                {{1.0, 1.0, false}, {0.3, 0.3, false}, {0.3, 0.3, true}},
-                starts);
+    for (const Kind& kind :
+         {Kind{0.5, 0.5, false}, Kind{1.0, 1.0, false}, Kind{0.3, 0.3, true}})
+      for (int shift = 0; shift < 3; ++shift)
+        addStarts(p, identity, shift, {kind}, starts);
   return starts;
 }
 
