@@ -11,7 +11,35 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int MIN_POINTS = 12;
-constexpr double PIXELS_PER_SPACING = 2.0;
+constexpr std::size_t NEIGHBOUR = 6;
+constexpr double LONELY = 2.5; ///< times the median distance to that neighbour
+constexpr std::size_t MAX_REFERENCE = 3000;
+
+/** \brief Takes out the points whose neighbours are far: a single one beyond the rim
+ * would spoil the outline. */
+void dropLonely(const Observation& o, std::vector<int>& columns) {
+  const std::size_t n = columns.size();
+  if (n < 10 * NEIGHBOUR)
+    return;
+  const std::size_t stride = n / MAX_REFERENCE + 1;
+  std::vector<float> distance(n);
+  std::vector<float> near;
+  for (std::size_t i = 0; i < n; ++i) {
+    near.clear();
+    for (std::size_t k = 0; k < n; k += stride)
+      near.push_back((o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
+    std::nth_element(near.begin(), near.begin() + NEIGHBOUR, near.end());
+    distance[i] = std::sqrt(near[NEIGHBOUR]);
+  }
+  std::vector<float> sorted = distance;
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
+  const double limit = LONELY * double(sorted[n / 2]);
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < n; ++i)
+    if (double(distance[i]) <= limit)
+      kept.push_back(columns[i]);
+  columns.swap(kept);
+}
 
 } // namespace
 
@@ -30,6 +58,7 @@ bool observeBare(Observation& o, std::string& why) {
     why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
     return false;
   }
+  dropLonely(o, columns);
   out.columns = columns;
   out.points.resize(3, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
