@@ -14,7 +14,9 @@ using namespace detail;
 
 constexpr double MIN_GAIN = 10.0;   ///< of the score, for one more part
 constexpr double GOOD_FIT = 1.35;   ///< cost per observation of a part that needs no cut
+constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
+constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
 
 struct Split {
   Piece first, second;
@@ -34,17 +36,35 @@ Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
     return s;
   if (s.first.points.size() < s.second.points.size())
     std::swap(s.first, s.second);
-  fitPiece(context, s.first, true);
-  fitPiece(context, s.second, true);
+  fitPiece(context, s.first, Effort::QUICK);
+  fitPiece(context, s.second, Effort::QUICK);
   s.score = s.first.score + s.second.score;
   return s;
 }
 
+/** \brief Axis that the second of two parts may share. */
+const Superquadric* axisOf(const Piece& piece) {
+  return piece.fit.chosen.shape == ShapeClass::ROTATIONAL ? &piece.fit.fit.model
+                                                          : nullptr;
+}
+
 void fitInFull(const PieceContext& context, Split& s) {
-  fitPiece(context, s.first, false);
-  const bool round = s.first.fit.chosen.shape == ShapeClass::ROTATIONAL;
-  fitPiece(context, s.second, false, round ? &s.first.fit.fit.model : nullptr);
+  fitPiece(context, s.first, Effort::FULL);
+  fitPiece(context, s.second, Effort::FULL, axisOf(s.first));
   s.score = s.first.score + s.second.score;
+  // the cut is only where the parts were looked for: the surfaces say what is whose
+  for (int round = 0; round < ROUNDS; ++round) {
+    Split next = s;
+    const std::size_t changed = assignPoints(context, {&next.first, &next.second});
+    if (100 * changed < next.first.points.size() + next.second.points.size())
+      break;
+    fitPiece(context, next.first, Effort::AGAIN);
+    fitPiece(context, next.second, Effort::AGAIN, axisOf(next.first));
+    next.score = next.first.score + next.second.score;
+    if (!(next.score < s.score))
+      break;
+    s = next;
+  }
 }
 
 /** \brief The best way to cut a piece in two; score 1e300 if there is none. */
@@ -67,6 +87,32 @@ Split bestSplit(const PieceContext& context, const Piece& piece) {
   return best;
 }
 
+/** \brief Merges pairs of parts while one explains them as well as two. */
+void mergeParts(const PieceContext& context, std::vector<Piece>& pieces, double min_gain) {
+  while (pieces.size() > 2) {
+    double best = -min_gain;
+    std::size_t first = 0, second = 0;
+    Piece chosen;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t j = i + 1; j < pieces.size(); ++j) {
+        Piece merged = mergePieces(pieces[i], pieces[j]);
+        fitPiece(context, merged, Effort::QUICK);
+        const double gain = pieces[i].score + pieces[j].score - merged.score;
+        if (gain > best) {
+          best = gain;
+          first = i;
+          second = j;
+          chosen = std::move(merged);
+        }
+      }
+    if (chosen.points.empty())
+      return;
+    fitPiece(context, chosen, Effort::FULL);
+    pieces[first] = std::move(chosen);
+    pieces.erase(pieces.begin() + std::ptrdiff_t(second));
+  }
+}
+
 } // namespace
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
@@ -75,18 +121,20 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       options.fit.noise > 0.0 ? options.fit.noise : localNoise(observed.points);
   PieceContext context{observed, options, 0.0};
   std::vector<Piece> pieces(1, wholePiece(context));
-  fitPiece(context, pieces[0], false);
+  fitPiece(context, pieces[0], Effort::FULL);
   if (!pieces[0].fit.fit.ok())
     return fit;
+  const double min_gain =
+      std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
   if (wanted > 1 && noise > 0.0) {
     context.noise = std::min(noise, pieces[0].fit.noise);
-    fitPiece(context, pieces[0], false);
+    fitPiece(context, pieces[0], Effort::FULL);
     fit.single_bic = pieces[0].score;
     while (int(pieces.size()) < wanted) {
       Split best;
       std::size_t which = 0;
-      double gain = options.parts > 0 ? -1e300 : MIN_GAIN;
+      double gain = options.parts > 0 ? -1e300 : min_gain;
       for (std::size_t i = 0; i < pieces.size(); ++i) {
         Piece& piece = pieces[i];
         const bool good = piece.fit.chosen.cost <
@@ -106,6 +154,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       pieces[which] = best.first;
       pieces.push_back(best.second);
     }
+    if (options.parts == 0)
+      mergeParts(context, pieces, min_gain);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

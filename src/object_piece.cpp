@@ -100,7 +100,7 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
 
 void fitPiece(const PieceContext& context,
               Piece& piece,
-              bool quick,
+              Effort effort,
               const Superquadric* coaxial) {
   const ObservedObject& o = context.observed;
   const Eigen::Matrix3Xd points = gather(context, piece.points);
@@ -111,10 +111,12 @@ void fitPiece(const PieceContext& context,
   options.max_semi_axis = 1.5 * halfDiagonal(points);
   if (coaxial)
     options.coaxial = *coaxial;
-  if (quick) {
+  if (effort == Effort::QUICK) {
     options.choose_shape = false;
     options.starts = QUICK_STARTS;
   }
+  if (effort == Effort::AGAIN && piece.fit.fit.ok())
+    options.start = piece.fit.fit.model;
   SupportEvidence evidence = o.evidence(
       piece.contour, context.options.silhouette_lines, reachesTable(context, points));
   evidence.tangents.insert(
@@ -125,6 +127,63 @@ void fitPiece(const PieceContext& context,
     piece.score = piece.fit.chosen.cost +
                   piece.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
                   0.5 * double(evidence.silhouette.size());
+}
+
+std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces) {
+  std::vector<std::vector<int>> points(pieces.size());
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const int i : pieces[k]->points) {
+      const Eigen::Vector3d p = context.observed.points.col(i);
+      // the own piece keeps what noise cannot tell
+      std::size_t nearest = k;
+      double best =
+          std::abs(pieces[k]->fit.fit.model.footPointDistance(p)) - context.noise;
+      for (std::size_t j = 0; j < pieces.size(); ++j)
+        if (const double d = std::abs(pieces[j]->fit.fit.model.footPointDistance(p));
+            j != k && d < best) {
+          best = d;
+          nearest = j;
+        }
+      points[nearest].push_back(i);
+      changed += nearest != k;
+    }
+  for (const auto& list : points)
+    if (list.size() < MIN_POINTS)
+      return 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    pieces[k]->points.swap(points[k]);
+  return changed;
+}
+
+Piece mergePieces(const Piece& a, const Piece& b) {
+  Piece merged;
+  merged.points = a.points;
+  merged.points.insert(merged.points.end(), b.points.begin(), b.points.end());
+  merged.pixels = a.pixels;
+  merged.pixels.insert(merged.pixels.end(), b.pixels.begin(), b.pixels.end());
+  const auto add = [&merged](const Piece& from, const Piece& other) {
+    for (const ContourPoint& p : from.contour) {
+      const bool inner =
+          !p.own && std::any_of(other.pixels.begin(),
+                                other.pixels.end(),
+                                [&](const Eigen::Vector2d& q) {
+                                  return (q - p.pixel).squaredNorm() < 10.0;
+                                });
+      if (!inner)
+        merged.contour.push_back(p);
+    }
+  };
+  add(a, b);
+  add(b, a);
+  // an end that one of the two goes beyond is none
+  for (const Piece* from : {&a, &b})
+    for (const SupportPlane& end : from->ends) {
+      const Piece& other = from == &a ? b : a;
+      if (end.residual(other.fit.fit.model) < 0.5 * end.sigma)
+        merged.ends.push_back(end);
+    }
+  return merged;
 }
 
 } // namespace pcl_sq::detail

@@ -42,12 +42,25 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut);
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 
-/** \brief Fits a piece and scores it. \param[in] quick general shape, few starts
+enum class Effort {
+  QUICK, ///< general shape, few starts
+  FULL,  ///< all shapes, all starts
+  AGAIN  ///< all shapes from the last fit
+};
+
+/** \brief Fits a piece and scores it.
  * \param[in] coaxial another part whose axis it may share, or nullptr */
 void fitPiece(const PieceContext& context,
               Piece& piece,
-              bool quick,
+              Effort effort,
               const Superquadric* coaxial = nullptr);
+
+/** \brief Gives each point to the piece with the nearest surface. \return how many
+ * points changed their piece */
+std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces);
+
+/** \brief Two pieces as one; not fitted. */
+Piece mergePieces(const Piece& a, const Piece& b);
 
 /** \brief Noise of the points from their distance to their neighbours' planes [m]. */
 double localNoise(const Eigen::Matrix3Xd& points);
