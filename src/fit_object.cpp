@@ -53,7 +53,8 @@ void fitInFull(const PieceContext& context, Split& s) {
   fitPiece(context, s.second, Effort::FULL, axisOf(s.first));
   s.score = s.first.score + s.second.score;
   // the cut is only where the parts were looked for: the surfaces say what is whose
-  for (int round = 0; round < ROUNDS; ++round) {
+  const int rounds = context.observed.hasCamera() ? 0 : ROUNDS; // the outline is cut, too
+  for (int round = 0; round < rounds; ++round) {
     Split next = s;
     const std::size_t changed = assignPoints(context, {&next.first, &next.second});
     if (100 * changed < next.first.points.size() + next.second.points.size())
