@@ -49,6 +49,11 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       options.decomposition,
       {{"none", Decomposition::NONE}, {"prisms", Decomposition::PRISMS}},
       "One superquadric, or one per prism of voxels");
+  addChoice<FitMode>(cli,
+                     "--fit",
+                     options.fit,
+                     {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
+                     "The paper's three parameters, or all eleven");
   PaperFitOptions& fit = options.paper_fit;
   addChoice<Cost>(
       cli,
@@ -127,7 +132,7 @@ std::string optionsToJson(const ModelOptions& options) {
   nlohmann::ordered_json json;
   const EstimationOptions& e = options.estimation;
   json["decomposition"] = e.decomposition == Decomposition::NONE ? "none" : "prisms";
-  json["fit"] = "paper";
+  json["fit"] = e.fit == FitMode::PAPER ? "paper" : "full";
   json["cost"] = e.paper_fit.cost == Cost::PAPER    ? "paper"
                  : e.paper_fit.cost == Cost::SOLINA ? "solina"
                                                     : "radial";
