@@ -17,4 +17,15 @@ bool PaperFitOptions::isValid(std::string* why) const {
   return check.passed();
 }
 
+bool FitOptions::isValid(std::string* why) const {
+  detail::OptionCheck check(why);
+  check.inRange("min_epsilon", min_epsilon, Superquadric::MIN_EPSILON, 1.0);
+  check.inRange("max_epsilon", max_epsilon, 1.0, Superquadric::MAX_EPSILON);
+  check.inRange("max_outlier_share", max_outlier_share, 0.0, 0.9);
+  check.inRange("noise", noise, 0.0, 1e9);
+  check.inRange("fixed", fixed, 0U, 0x7ffU);
+  check.inRange("max_iterations", max_iterations, 1, 1000);
+  return check.passed();
+}
+
 } // namespace pcl_sq

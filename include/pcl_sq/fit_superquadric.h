@@ -30,6 +30,15 @@ struct PCL_SQ_EXPORTS FitSummary {
   int iterations = 0;        ///< of Levenberg-Marquardt, all starts together
   double distortion = 0.0;   ///< D, Eq. (7), semi-axes in metres
   double rms_distance = 0.0; ///< of the foot-point distance [m]
+  /** \brief Estimated noise of the points on the surface [m]; full fit only. */
+  double sigma = 0.0;
+  /** \brief Estimated share of points that belong elsewhere; full fit only. */
+  double outlier_share = 0.0;
+  /** \brief Covariance of the parameters, in the order and units of
+   * Superquadric::logGaugeJacobian(): t along the own axes [m], w [rad], ln a, e1, e2;
+   * zero in fixed directions and at bounds. Empty (zero) after the paper's fit. */
+  Eigen::Matrix<double, 11, 11, Eigen::DontAlign> covariance =
+      Eigen::Matrix<double, 11, 11, Eigen::DontAlign>::Zero();
 
   /** \brief Whether \a model is usable. */
   [[nodiscard]] bool ok() const;
@@ -59,5 +68,22 @@ PCL_SQ_EXPORTS FitSummary
 fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                      const Superquadric& initial,
                      const PaperFitOptions& options = {});
+
+/** \brief The full fit: all eleven parameters from bare points, whatever their unit,
+ * place, orientation and order.
+ *
+ * Several starts by least squares on the radial distance (Gross & Boult 1988), the best
+ * refined, its axes and exponents exchanged where that fits better (Liu et al. 2022),
+ * then the distance to the foot point over all points, weighted by a mixture of a
+ * Gaussian and a uniform distribution whose width and share are estimated.
+ * \param[in] points 3 x N in the cloud's frame [m]; non-finite columns are left out */
+PCL_SQ_EXPORTS FitSummary fitSuperquadric(
+    const Eigen::Ref<const Eigen::Matrix3Xd>& points, const FitOptions& options = {});
+
+/** \brief The full fit from a start, without a search for others. */
+PCL_SQ_EXPORTS FitSummary
+fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                const Superquadric& initial,
+                const FitOptions& options = {});
 
 } // namespace pcl_sq

@@ -7,6 +7,9 @@
 
 #include <Eigen/Core>
 
+#include <string>
+#include <vector>
+
 namespace pcl_sq {
 
 /** \brief The plane normal . p + offset = 0; the normal points to the viewer's side. */
@@ -50,6 +53,8 @@ public:
 
   /** \brief The plane of the last successful segment(). */
   const TablePlane& getPlane() const { return plane_; }
+  /** \brief Why the last segment() failed, a sentence; empty if it did not. */
+  const std::string& getFailure() const { return failure_; }
 
 protected:
   using pcl::PCLBase<PointT>::input_;
@@ -60,6 +65,7 @@ protected:
 private:
   TabletopOptions options_;
   TablePlane plane_;
+  std::string failure_;
 };
 
 /** \brief The algorithm of TabletopSegmentation on bare points.

@@ -44,12 +44,8 @@ template <typename PointT>
 bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
   model = {};
   report_ = {};
-  if (!initCompute()) {
-    PCL_WARN(
-        "[pcl_sq::ObjectSurfaceEstimation::estimate] there is no input cloud; call "
-        "setInputCloud first.\n");
-    return false;
-  }
+  if (!initCompute())
+    return fail("there is no input cloud; call setInputCloud first");
   StageTimer timer(report_.timings_ms);
   // II-B: the points of the query region
   pcl::IndicesPtr object(new pcl::Indices);
@@ -59,6 +55,11 @@ bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
   found = found && timer.run("decompose", [&] { return decompose(object, clusters); });
   // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
   found = found && timer.run("fit", [&] { return fitParts(object, clusters, model); });
+  if (found)
+    timer.run("evaluate", [&] {
+      evaluate(object, model);
+      return true;
+    });
   // III-C, end: the points on the union's surface are where a hand may touch
   if (found)
     timer.run("grasp_points", [&] {
@@ -67,6 +68,13 @@ bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
     });
   deinitCompute();
   return found;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::fail(const std::string& sentence) {
+  report_.failure = sentence;
+  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
+  return false;
 }
 
 template <typename PointT>
@@ -89,11 +97,9 @@ bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
     }
   }
   report_.region_points = object->size();
-  if (object->empty()) {
-    PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] no finite point lies in the "
-             "region; check the box against the cloud's extent.\n");
-    return false;
-  }
+  if (object->empty())
+    return fail("no finite point lies in the region; check the box against the cloud's "
+                "extent");
   report_.region.min = box.min();
   report_.region.max = box.max();
   return true;
@@ -108,6 +114,9 @@ bool ObjectSurfaceEstimation<PointT>::decompose(
     clusters[0].indices = *object;
     return true;
   }
+  std::string why; // the grid itself could only warn
+  if (!makeVoxelLayout(report_.region, options_.voxels, report_.voxels, &why))
+    return fail(why);
   AdaptiveVoxelGrid<PointT> grid;
   grid.setInputCloud(input_);
   grid.setIndices(object);
@@ -116,8 +125,6 @@ bool ObjectSurfaceEstimation<PointT>::decompose(
   pcl::PointCloud<PointT> centroids;
   grid.filter(centroids);
   report_.voxels = grid.getVoxelLayout();
-  if (report_.voxels.empty())
-    return false; // the grid has said why
 
   PrismSegmentation<PointT> segmentation;
   segmentation.setInputCloud(input_);
@@ -125,9 +132,11 @@ bool ObjectSurfaceEstimation<PointT>::decompose(
   segmentation.setVoxelLayout(report_.voxels);
   segmentation.setOptions(options_.prisms);
   segmentation.setExclusive(options_.exclusive_points);
-  const bool found = segmentation.segment(clusters);
+  if (!segmentation.segment(clusters))
+    return fail("no prism of connected voxels holds enough points; give more points or "
+                "ask for fewer divisions");
   report_.prisms = segmentation.getPrisms();
-  return found;
+  return true;
 }
 
 template <typename PointT>
@@ -160,12 +169,17 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
   }
   if (!model.empty())
     return true;
-  PCL_WARN(
-      "[pcl_sq::ObjectSurfaceEstimation::estimate] %zu points give no superquadric "
-      "(%s): they must span a volume.\n",
-      object->size(),
-      toString(report_.parts.front().fit.termination));
-  return false;
+  return fail(std::to_string(object->size()) + " points give no superquadric (" +
+              toString(report_.parts.front().fit.termination) +
+              "): at least ten are needed, and they must span a volume");
+}
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
+                                               const MultiSuperquadric& model) {
+  const Eigen::Matrix3Xd points = detail::gatherPoints(*input_, *object);
+  report_.distortion = model.distortion(points);
+  report_.rms_distance = model.rmsDistance(points);
 }
 
 template <typename PointT>

@@ -28,15 +28,15 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
     points.col(static_cast<Eigen::Index>(i)) =
         (*input_)[(*indices_)[i]].getVector3fMap();
   std::vector<int> columns;
-  std::string why;
+  failure_.clear();
   const bool found = findTabletopObject(points,
                                         input_->sensor_origin_.template head<3>(),
                                         options_,
                                         plane_,
                                         columns,
-                                        &why);
+                                        &failure_);
   if (!found)
-    PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", why.c_str());
+    PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", failure_.c_str());
   object.reserve(columns.size());
   for (const int column : columns)
     object.push_back((*indices_)[column]);

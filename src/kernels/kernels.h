@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Inner loops of every fit, on plain float arrays: no Eigen and no PCL type is
+// seen by the files that are compiled for wide registers.
+#pragma once
+
+#include "pcl_sq/exports.h"
+
+#include <cstddef>
+
+namespace pcl_sq::kernels {
+
+/** \brief Arrays may be read up to the next multiple of this many points. */
+constexpr std::size_t BLOCK = 128;
+/** \brief Parameters: t (3, along the own axes), w (3, right rotation), ln a (3), e1,
+ * e2: the order of Superquadric::logGaugeJacobian(). */
+constexpr int PARAMETERS = 11;
+constexpr int ROWS = PARAMETERS + 1; ///< the Jacobian's columns and the residual
+
+/** \brief Points of size about one around the origin, so that floats suffice. */
+struct Points {
+  const float* x;
+  const float* y;
+  const float* z;
+  /** \brief Factor of each squared residual; nullptr: all one. */
+  const float* precision;
+  std::size_t count;
+};
+
+/** \brief A superquadric in the frame of the points. */
+struct Shape {
+  float axes[3][3];      ///< rows: the own axes, R^T
+  float offset[3];       ///< R^T center
+  float inverse_axis[3]; ///< 1 / a
+  float epsilon1, epsilon2;
+};
+
+enum class Residual {
+  RADIAL,      ///< |y| (1 - 1/G): the widest basin (Gross & Boult 1988)
+  FIRST_ORDER, ///< (1 - 1/G) / |grad ln G| (Taubin 1991)
+  FOOT_POINT,  ///< distance to the foot point after one projection: the least bias
+  GAUGE,       ///< G - 1, the paper's Eq. (6)
+  SOLINA       ///< G^2 - 1 = F^e1 - 1 (Solina & Bajcsy 1990)
+};
+
+/** \brief Mixture of a Gaussian on the surface with uniform outliers.
+ *
+ * The share of the Gaussian is p = exp(-s r^2) / (exp(-s r^2) + c); the cost of a point
+ * -ln((exp(-s r^2) + c) / (1 + c)) / s, which is r^2 for c = 0. */
+struct Mixture {
+  float inverse_two_sigma_squared = 1.0F; ///< s
+  float outlier = 0.0F;                   ///< c; 0: plain least squares
+};
+
+/** \brief Sums over the points. With p the mixture's share and q the precision. */
+struct Sums {
+  double products[ROWS][ROWS]; ///< sum p q j j^T, j = (Jacobian, r); upper triangle
+  double cost;                 ///< sum of the points' costs
+  double share;                ///< sum p: the expected number of inliers
+};
+
+/** \brief One implementation of the loops. */
+struct Kernels {
+  const char* name;
+  void (*normalEquations)(const Points&, const Shape&, Residual, const Mixture&, Sums&);
+  /** \brief Residual of each point; GAUGE gives G - 1, and so on. */
+  void (*residuals)(const Points&, const Shape&, Residual, float* out);
+  /** \brief Cost and share only. */
+  void (*evaluate)(const Points&, const Shape&, Residual, const Mixture&, Sums&);
+};
+
+enum class Isa { PORTABLE, SSE2, AVX2, AVX512 };
+
+/** \brief The loops for one instruction set; nullptr where this machine lacks it. */
+PCL_SQ_EXPORTS const Kernels* kernelsFor(Isa isa);
+/** \brief The widest loops of this machine. */
+PCL_SQ_EXPORTS const Kernels& kernels();
+
+} // namespace pcl_sq::kernels

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Points of size about one around the origin along their principal axes, in
+// single precision: results depend neither on the unit nor on where and how the cloud
+// lies, and floats suffice.
+#pragma once
+
+#include "kernels/kernels.h"
+#include "pcl_sq/superquadric.h"
+
+#include <vector>
+
+namespace pcl_sq::detail {
+
+/** \brief Similarity between the cloud's frame and the frame the solver works in. */
+struct UnitFrame {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the cloud's frame [m]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< columns, in the cloud's frame
+  double scale = 1.0;                                 ///< metres per unit
+
+  Eigen::Vector3d toUnit(const Eigen::Vector3d& p) const {
+    return axes.transpose() * (p - origin) / scale;
+  }
+  Superquadric toUnit(Superquadric s) const {
+    s.center = toUnit(s.center);
+    s.rotation = axes.transpose() * s.rotation;
+    s.semi_axes /= scale;
+    return s;
+  }
+  Superquadric toCloud(Superquadric s) const {
+    s.center = axes * s.center * scale + origin;
+    s.rotation = Eigen::Quaterniond(axes * s.rotation).normalized().toRotationMatrix();
+    s.semi_axes *= scale;
+    return s;
+  }
+};
+
+/** \brief Coordinates as the kernels want them: one array each, padded. */
+class UnitPoints {
+public:
+  void reserve(std::size_t count);
+  void clear() { count_ = 0; }
+  void add(float x, float y, float z) {
+    x_[count_] = x;
+    y_[count_] = y;
+    z_[count_] = z;
+    ++count_;
+  }
+  /** \brief Factors of the squared residuals, one per point; empty: all one. */
+  void setPrecision(const std::vector<float>& precision);
+  std::size_t size() const { return count_; }
+  Eigen::Vector3f operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  kernels::Points view() const {
+    return {x_.data(),
+            y_.data(),
+            z_.data(),
+            precision_.empty() ? nullptr : precision_.data(),
+            count_};
+  }
+
+private:
+  std::vector<float> x_, y_, z_, precision_;
+  std::size_t count_ = 0;
+};
+
+/** \brief Frame of the finite points: mean, principal axes signed by the third moments,
+ * standard deviation along the longest as the unit. \return false for fewer than three
+ * finite points or a single place */
+bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points, UnitFrame& frame);
+
+/** \brief The finite points in a frame. */
+UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                  const UnitFrame& frame);
+
+/** \brief Up to \a count points, the same ones in whatever order they come: those whose
+ * coordinates have the smallest hash. */
+UnitPoints subset(const UnitPoints& points, std::size_t count);
+
+/** \brief The shape's numbers for the kernels. */
+kernels::Shape toShape(const Superquadric& superquadric);
+
+} // namespace pcl_sq::detail
