@@ -115,6 +115,27 @@ TEST(FitApp, ConfigFileGivesDefaultsAndTheCommandLineWins) {
       folder, {cloud, "--config", folder.write("bad.toml", "colour = 3\n")}, 2);
 }
 
+TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
+  const Folder folder;
+  const std::string first = folder.write("first.pcd", bottlePcd());
+  const std::string last = folder.write("last.pcd", bottlePcd(2000));
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {first, folder / "missing.pcd", last, "--jsonl"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.sentences(), 1) << run.err;
+  std::istringstream lines(run.out);
+  std::string line;
+  for (const std::string& path : {first, last}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    ModelFile file;
+    std::string why;
+    ASSERT_TRUE(fromJson(line, file, &why)) << why;
+    EXPECT_EQ(file.input_path, path);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+  EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
+}
+
 TEST(FitApp, BadCommandLinesEndWithTwo) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
@@ -225,9 +246,10 @@ TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
 TEST(FitApp, TooLittleMemoryIsAnErrorAndNotAKill) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
-  const ProgramRun run = runProgram("pcl_sq_fit",
-                             {cloud, "--threads", "1", "--divisions", "250,250,250"},
-                             "ulimit -v 600000;");
+  const ProgramRun run =
+      runProgram("pcl_sq_fit",
+                 {cloud, "--threads", "1", "--divisions", "250,250,250"},
+                 "ulimit -v 600000;");
   EXPECT_TRUE(run.code == 0 || run.code == 1) << run.code << run.err;
   std::string big = "0 0 0\n";
   while (big.size() < (48u << 20))
