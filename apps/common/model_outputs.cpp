@@ -3,6 +3,11 @@
 #include "files.h"
 #include "model_options.h"
 
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+#include "pcl_sq/visualization/mesh_writer.h"
+#include "pcl_sq/visualization/snapshot_renderer.h"
+#endif
+
 #include <pcl/io/pcd_io.h>
 
 #include <cstdio>
@@ -24,6 +29,33 @@ void writeGraspPoints(const std::string& path,
   });
 }
 
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+void writeSnapshot(const std::string& path,
+                   const LoadedCloud& input,
+                   const ModelResult& result) {
+  const auto n = static_cast<Eigen::Index>(input.cloud->size());
+  Eigen::Matrix3Xd points(3, n);
+  SnapshotRenderer::Colors colors(3, input.has_color ? n : 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& p = (*input.cloud)[std::size_t(i)];
+    points.col(i) = p.getVector3fMap().cast<double>();
+    if (input.has_color)
+      colors.col(i) << p.r, p.g, p.b;
+  }
+  SnapshotRenderer renderer;
+  renderer.addCloud(points, colors);
+  renderer.addModel(result.file.model);
+  renderer.save(path);
+}
+
+void writeMeshFile(const std::string& path, const MultiSuperquadric& model) {
+  std::vector<TriangleMesh> parts;
+  for (const Superquadric& part : model.parts)
+    parts.push_back(meshSuperquadric(part));
+  writeMesh(path, parts);
+}
+#endif
+
 } // namespace
 
 void writeOutputs(const LoadedCloud& input,
@@ -33,6 +65,12 @@ void writeOutputs(const LoadedCloud& input,
     writeTextFile(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
     writeGraspPoints(options.grasp_points, input, result.report.grasp_indices);
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+  if (!options.mesh.empty())
+    writeMeshFile(options.mesh, result.file.model);
+  if (!options.snapshot.empty())
+    writeSnapshot(options.snapshot, input, result);
+#endif
 }
 
 void printSummary(const ModelResult& result) {
