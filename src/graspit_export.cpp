@@ -52,25 +52,6 @@ std::string elementXml(const std::string& kind,
          "</fullTransform>\n\t\t</transform>\n\t</" + kind + ">\n";
 }
 
-TriangleMesh boxMesh(const OrientedBox& box) {
-  TriangleMesh mesh;
-  const auto corners = box.corners();
-  mesh.vertices.assign(corners.begin(), corners.end());
-  mesh.triangles = {{0, 2, 1},
-                    {1, 2, 3},
-                    {4, 5, 6},
-                    {5, 7, 6},
-                    {0, 1, 4},
-                    {1, 5, 4},
-                    {2, 6, 3},
-                    {3, 6, 7},
-                    {0, 4, 2},
-                    {2, 4, 6},
-                    {1, 3, 5},
-                    {3, 7, 5}};
-  return mesh;
-}
-
 /** \brief A frame whose z is the given direction. */
 Eigen::Matrix3d frameAlong(const Eigen::Vector3d& z) {
   Eigen::Matrix3d frame;
@@ -189,7 +170,7 @@ std::vector<TextFile> graspitFiles(const MultiSuperquadric& model,
                      "<?xml version=\"1.0\" ?>\n<root>\n\t<material>wood</material>\n"
                      "\t<geometryFile type=\"off\">" +
                          name + ".off</geometryFile>\n</root>\n"});
-    files.push_back({obstacles + name + ".off", detail::offText(boxMesh(plate))});
+    files.push_back({obstacles + name + ".off", detail::offText(meshBox(plate))});
   }
 
   world += cameraXml(mass.center,
