@@ -14,7 +14,6 @@ constexpr std::size_t MIN_POINTS = 12;        ///< one more than parameters
 constexpr std::size_t WORKING_POINTS = 16384; ///< more do not change the mixture
 constexpr double MAX_AXIS = 30.0;             ///< standard deviations of the cloud
 constexpr double MIN_AXIS = 1e-4;
-constexpr double SYSTEMATIC = 0.35; ///< correlation of residuals that noise never has
 
 /** \brief Inverse of the information in the free directions, in the cloud's unit. */
 Eigen::Matrix<double, 11, 11>
@@ -136,7 +135,7 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     best = refine(part, best, setting, last);
   } else {
     best = refine(part, search(part, false, setting), setting, last);
-    if (best.mixture.sigma > 1e-5 && residualCorrelation(part, best) > SYSTEMATIC) {
+    if (doubtful(part, best)) {
       LmResult other_last;
       const Candidate other =
           refine(part, search(part, true, setting), setting, other_last);

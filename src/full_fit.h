@@ -42,10 +42,9 @@ Candidate refine(const UnitPoints& points,
                  FitSetting& setting,
                  LmResult& last);
 
-/** \brief How alike the residuals of neighbouring points are, -1 to 1: about zero for
- * noise, near one where the shape is wrong (von Neumann's ratio along a space-filling
- * curve). */
-double residualCorrelation(const UnitPoints& points, const Candidate& candidate);
+/** \brief Whether a fit is likely to be a wrong minimum: its residuals are systematic,
+ * or it takes a part of the surface for outliers. */
+bool doubtful(const UnitPoints& points, const Candidate& candidate);
 
 /** \brief A further cost for a cloud's frame, see Contributor. */
 using ContributorFactory = std::function<Contributor(const UnitFrame&)>;
