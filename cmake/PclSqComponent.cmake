@@ -1,9 +1,15 @@
-# pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
+# SPDX-License-Identifier: BSD-3-Clause
+# pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...]
+#   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...] [RECOMMENDS packages...])
 # One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
 # objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
 # library hides.
+# FIND, PKGCONFIG and DEBIAN name what a user of the component's headers needs: one quoted
+# argument list of find_dependency() each, modules of pkg-config, packages of Debian. RECOMMENDS: Debian packages that the library itself uses
+# where they are installed.
 function(pcl_sq_component name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN;RECOMMENDS"
+    ${ARGN})
   set(target pcl_sq_${name})
   add_library(${target}_objects OBJECT ${ARG_SOURCES})
   set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -15,7 +21,8 @@ function(pcl_sq_component name)
   add_library(${target} SHARED $<TARGET_OBJECTS:${target}_objects>)
   add_library(pcl_sq::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    INSTALL_RPATH "$ORIGIN") # a component finds core beside it, whatever the prefix
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   foreach(library ${target} ${target}_objects)
     target_compile_features(${library} PUBLIC cxx_std_17)
@@ -25,8 +32,16 @@ function(pcl_sq_component name)
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   endforeach()
   install(TARGETS ${target} EXPORT pcl_sq_${name}_targets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      COMPONENT ${name} NAMELINK_COMPONENT ${name}_dev
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})
-  install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}
+  install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}_dev
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_sq)
+
+  # read by PclSqPackage.cmake
+  set_property(GLOBAL APPEND PROPERTY PCL_SQ_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_FIND "${ARG_FIND}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_PKGCONFIG "${ARG_PKGCONFIG}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_DEBIAN "${ARG_DEBIAN}")
+  set_property(GLOBAL PROPERTY PCL_SQ_${name}_RECOMMENDS "${ARG_RECOMMENDS}")
 endfunction()

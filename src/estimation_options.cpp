@@ -6,7 +6,8 @@
 namespace pcl_sq {
 
 bool EstimationOptions::isValid(std::string* why) const {
-  if (!voxels.isValid(why) || !prisms.isValid(why) || !paper_fit.isValid(why))
+  if (!voxels.isValid(why) || !prisms.isValid(why) || !paper_fit.isValid(why) ||
+      !full_fit.isValid(why))
     return false;
   detail::OptionCheck check(why);
   check.inRange("grasp_threshold", grasp_threshold, 1e-9, 1.0);

@@ -3,8 +3,9 @@
 // Levenberg-Marquardt.
 #include "paper_problem.h"
 #include "pcl_sq/fit_superquadric.h"
-#include "pcl_sq/multi_superquadric.h"
+
 #include "point_set.h"
+#include "surface_statistics.h"
 
 #include <Eigen/Cholesky>
 
@@ -88,6 +89,11 @@ Superquadric turned(const Superquadric& s, int shift) {
   return t;
 }
 
+/** \brief Where a turned body has the depth, the paper's a3. */
+int freeAxis(int shift) {
+  return (2 - shift + 3) % 3;
+}
+
 } // namespace
 
 Superquadric initialSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
@@ -128,36 +134,48 @@ FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points
                                 const PaperFitOptions& options) {
   FitSummary best;
   best.model = initial;
-  if (!options.isValid() || !initial.isValid()) {
-    best.termination = Termination::INVALID_OPTIONS;
+  const auto stop = [&best](Termination termination) {
+    best.termination = termination;
     return best;
-  }
-  const PaperProblem::LocalPoints local = PaperProblem::toLocal(points, initial);
-  best.points = local.size();
-  if (local.size() < MIN_POINTS) {
-    best.termination = Termination::TOO_FEW_POINTS;
-    return best;
-  }
-  if (detail::spannedDimensions(points) < 3) {
-    best.termination = Termination::DEGENERATE;
-    return best;
-  }
+  };
+  if (!options.isValid())
+    return stop(Termination::INVALID_OPTIONS);
+  best.points = detail::momentsOf(points).count;
+  if (best.points < MIN_POINTS)
+    return stop(Termination::TOO_FEW_POINTS);
+  if (detail::spannedDimensions(points) < 3)
+    return stop(Termination::DEGENERATE);
+  if (!initial.isValid())
+    return stop(Termination::INVALID_OPTIONS);
+  detail::UnitFrame frame; // that of the start, its longest semi-axis as the unit
+  frame.origin = initial.center;
+  frame.axes = initial.rotation;
+  frame.scale = initial.semi_axes.maxCoeff();
+  const detail::UnitPoints local = detail::toUnit(points, frame);
   const int turns = options.axis_assignment == AxisAssignment::BEST_OF_3 ? 3 : 1;
-  int iterations = 0;
+  int iterations = 0, best_shift = 0;
   for (int shift = 0; shift < turns; ++shift) {
-    const int free_axis = (2 - shift + 3) % 3; // a3, the depth, wherever it went
-    const Superquadric start = turned(initial, shift);
-    const PaperProblem problem(local, start, shift, free_axis, options);
+    const Superquadric start = turned(frame.toUnit(initial), shift);
+    const PaperProblem problem(local, start, freeAxis(shift), options);
     FitSummary summary = minimise(problem, start, options);
     iterations += summary.iterations;
-    if (shift == 0 || summary.distortion < best.distortion)
+    if (shift == 0 || summary.distortion < best.distortion) {
       best = summary;
+      best_shift = shift;
+    }
   }
   best.iterations = iterations;
   best.points = local.size();
-  const MultiSuperquadric single{{best.model}};
-  best.distortion = single.distortion(points);
-  best.rms_distance = single.rmsDistance(points);
+  // back in metres; what was given stays to the last bit
+  const Superquadric unit = best.model;
+  best.model = turned(initial, best_shift);
+  best.model.epsilon1 = unit.epsilon1;
+  best.model.epsilon2 = unit.epsilon2;
+  const int free_axis = freeAxis(best_shift);
+  best.model.semi_axes[free_axis] = unit.semi_axes[free_axis] * frame.scale;
+  const auto statistics = detail::surfaceStatistics({{best.model}}, points);
+  best.distortion = statistics.distortion;
+  best.rms_distance = statistics.rms_distance;
   return best;
 }
 

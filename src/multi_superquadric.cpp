@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/multi_superquadric.h"
 
+#include "surface_statistics.h"
 #include "union_mesh.h"
 
+#include <cmath>
 #include <limits>
 
 namespace pcl_sq {
@@ -54,34 +56,13 @@ Eigen::AlignedBox3d MultiSuperquadric::boundingBox() const {
 
 double MultiSuperquadric::distortion(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                      double unit) const {
-  std::vector<double> factors;
-  for (const Superquadric& part : parts)
-    factors.push_back(std::sqrt((part.semi_axes / unit).prod()));
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    double nearest = INFINITE, term = 0.0;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const double d = parts[k].gauge(points.col(i)) - 1.0; // Eq. (6)
-      if (std::abs(d) < nearest) {
-        nearest = std::abs(d);
-        term = factors[k] * d * d; // Eq. (7)
-      }
-    }
-    sum += term;
-  }
-  return points.cols() > 0 ? sum / double(points.cols()) : 0.0;
+  // sqrt(a1 a2 a3) is a length to the power of 1.5
+  return detail::surfaceStatistics(*this, points).distortion * std::pow(unit, -1.5);
 }
 
 double
 MultiSuperquadric::rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    double nearest = INFINITE;
-    for (const Superquadric& part : parts)
-      nearest = std::min(nearest, std::abs(part.footPointDistance(points.col(i))));
-    sum += parts.empty() ? 0.0 : nearest * nearest;
-  }
-  return points.cols() > 0 ? std::sqrt(sum / double(points.cols())) : 0.0;
+  return detail::surfaceStatistics(*this, points).rms_distance;
 }
 
 TriangleMesh MultiSuperquadric::meshParts(int divisions) const {

@@ -139,7 +139,7 @@ std::uint32_t validityThreshold(const std::vector<std::uint32_t>& counts) {
       occupied.begin() + static_cast<std::ptrdiff_t>(occupied.size() / 2);
   std::nth_element(occupied.begin(), middle, occupied.end());
   const std::uint32_t median = *middle;
-  return std::max(std::min(FLOOR, (median + 1) / 2), (median + 10) / 20);
+  return std::max({1u, std::min(FLOOR, median / 2), (median + 10) / 20});
 }
 
 } // namespace pcl_sq

@@ -30,8 +30,8 @@ int run(int argc,
     std::cerr << name << ": " << sentence << '\n';
     return int(code);
   };
-  // PCL reports what it loads on stdout; only its errors are of interest to the user
-  pcl::console::setVerbosityLevel(pcl::console::L_ERROR);
+  // PCL talks of its own accord; the user gets one sentence, from here
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   try {
     CLI::App cli(description, name);
     cli.footer("Examples:\n" + examples +

@@ -12,6 +12,12 @@ enum class Decomposition {
   PRISMS ///< one for each rectangular prism of voxels (III-C)
 };
 
+/** \brief How a part's superquadric is found. */
+enum class FitMode {
+  PAPER, ///< pose, a1 and a2 from region and extents; e1, e2 and a3 estimated (III-B)
+  FULL   ///< all eleven parameters from the points
+};
+
 /** \brief Points whose principal axes turn a part's superquadric. */
 enum class PcaScope {
   OBJECT, ///< one rotation for all parts, as the paper's Table I has it
@@ -30,12 +36,15 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   VoxelOptions voxels;
   PrismOptions prisms;
   bool exclusive_points = false; ///< whether a point counts for its smallest prism only
+  FitMode fit = FitMode::PAPER;
   PcaScope pca = PcaScope::OBJECT;
   CenterRule center = CenterRule::REGION;
-  PaperFitOptions paper_fit;
+  PaperFitOptions paper_fit;     ///< for FitMode::PAPER
+  FitOptions full_fit;           ///< for FitMode::FULL
   double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
 
-  /** \brief Whether every setting is in its range. \param[out] why the first that is not */
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;
 };
 

@@ -24,12 +24,15 @@ struct PartReport {
 
 /** \brief What an estimation did, stage by stage. */
 struct EstimationReport {
-  RoiBox region;                  ///< box that was divided [m]
-  std::size_t region_points = 0;  ///< finite points in it
-  VoxelLayout voxels;             ///< empty without a decomposition
-  std::vector<Prism> prisms;      ///< empty without a decomposition
-  std::vector<PartReport> parts;  ///< one per prism; one without a decomposition
-  pcl::Indices grasp_indices;     ///< points on the union's surface
+  std::string failure; ///< why there is no model, a sentence; empty on success
+  RoiBox region;       ///< box that was divided [m]
+  std::size_t region_points = 0; ///< finite points in it
+  VoxelLayout voxels;            ///< empty without a decomposition
+  std::vector<Prism> prisms;     ///< empty without a decomposition
+  std::vector<PartReport> parts; ///< one per prism; one without a decomposition
+  pcl::Indices grasp_indices;    ///< points on the union's surface
+  double distortion = 0.0;       ///< D of the union, Eq. (7), semi-axes in metres
+  double rms_distance = 0.0;     ///< of the union [m]
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, [ms], in order
 };
 
@@ -85,11 +88,14 @@ protected:
   using pcl::PCLBase<PointT>::deinitCompute;
 
 private:
+  bool fail(const std::string& sentence);
   bool cropRegion(pcl::IndicesPtr& object);
-  bool decompose(const pcl::IndicesPtr& object, std::vector<pcl::PointIndices>& clusters);
+  bool decompose(const pcl::IndicesPtr& object,
+                 std::vector<pcl::PointIndices>& clusters);
   bool fitParts(const pcl::IndicesPtr& object,
                 std::vector<pcl::PointIndices>& clusters,
                 MultiSuperquadric& model);
+  void evaluate(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
   void findGraspPoints(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
 
   EstimationOptions options_;

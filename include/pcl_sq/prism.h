@@ -5,8 +5,20 @@
 
 namespace pcl_sq {
 
-/** \brief How far a prism extends down from the row that gave its width. The paper's
- * pseudo-code (Fig. 4, lines 11-16) can be read in three ways. */
+/** \brief How voxels are fused to prisms. */
+enum class PrismMethod {
+  /** \brief The rectangle with the largest surplus of valid over missing cells, again
+   * and again; what they leave over is fused by connection. Ragged borders, which start
+   * and stop the runs of FIGURE_4, do not matter, and prisms hardly overlap. */
+  RECTANGLES,
+  /** \brief The paper's scan: a valid cell without a valid left or upper neighbour is a
+   * seed; the run of valid cells to its right is the width, a run downwards the height.
+   * Prisms run through each other: a neck reaches the bottom of its bottle. */
+  FIGURE_4
+};
+
+/** \brief How far a prism of FIGURE_4 extends down from the row that gave its width.
+ * The paper's pseudo-code (lines 11-16) can be read in three ways. */
 enum class PrismRun {
   CROSS, ///< as the run of the seed's own column: the figure's simplest meaning
   MIN,   ///< as the shortest run below the row: all cells of the rectangle are valid
@@ -15,19 +27,29 @@ enum class PrismRun {
 
 /** \brief Settings of the fusion of voxels to prisms (III-C, Fig. 4). */
 struct PCL_SQ_EXPORTS PrismOptions {
-  PrismRun run = PrismRun::CROSS;
-  /** \brief Passes over the cells, >= 0, 0: as many as are needed. In the paper's
-   * pseudo-code read literally a second pass finds nothing: the same as 1. */
-  int max_passes = 0;
-  double max_uncovered = 0.02; ///< share of valid cells that may stay uncovered, [0, 1]
-  bool merge = true;           ///< fuse prisms that are nearly the same
-  double merge_overlap = 0.8;  ///< common cells over those of the smaller, (0, 1]
-  double merge_width_ratio = 0.75; ///< narrower over wider of a pair, (0, 1]
-  /** \brief A prism whose own cells, covered by no other, are fewer than this share of
-   * the valid cells is dropped; [0, 1). */
+  PrismMethod method = PrismMethod::RECTANGLES;
+  /** \brief Smallest share of the valid cells that a prism must have for itself,
+   * covered by no other; [0, 1). */
   double min_exclusive = 0.03;
   int min_points = 30; ///< a prism with fewer points is dropped, >= 0
 
+  /** \brief RECTANGLES: share of the valid cells below which a rectangle is no part but
+   * a piece of one, such as a handle's grip; pieces are fused by connection; [0, 1). */
+  double min_rectangle = 0.10;
+
+  PrismRun run = PrismRun::CROSS; ///< FIGURE_4: height of a prism
+  /** \brief FIGURE_4: passes over the cells, >= 0; 0: as many as are needed. The
+   * pseudo-code as printed flags all valid cells in the first pass: the same as 1. */
+  int max_passes = 0;
+  /** \brief FIGURE_4: share of valid cells that may stay uncovered, [0, 1]. */
+  double max_uncovered = 0.02;
+  bool merge = true;          ///< FIGURE_4: fuse prisms that are nearly the same
+  double merge_overlap = 0.8; ///< FIGURE_4: common cells over the smaller's, (0, 1]
+  double merge_width_ratio = 0.75; ///< FIGURE_4: narrower over wider, (0, 1]
+
+  /** \brief The pseudo-code of Fig. 4 as it is printed: one pass, prisms neither merged
+   * nor dropped. */
+  static PrismOptions literal();
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;
@@ -39,24 +61,26 @@ struct Prism {
   RoiBox box;     ///< [m]; its depth is that of the whole region
 };
 
+/** \brief Most cells along the shorter side of a mask; RECTANGLES takes time with its
+ * square. */
+constexpr int MAX_PRISM_CELLS = 512;
+
 /** \brief Fuses the valid cells of a mask to rectangles (III-C, Fig. 4).
  *
- * A seed is a valid cell whose left and upper neighbours are not; the prism takes the
- * run of valid cells to its right as width and a run downwards as height (PrismRun).
- * "Parsed" cells are those that a prism covers: later passes see only the uncovered
- * ones, until hardly any is left. Nearly equal prisms are then merged and those that
- * add little are dropped.
+ * FIGURE_4 in its meaningful reading: "parsed" cells are those that a prism covers;
+ * passes after the first see only the uncovered ones, until hardly any is left. Nearly
+ * equal prisms are then merged and those that add little are dropped.
  *
  * \param[in] points points behind each cell of the mask; if empty, min_points is not
  * applied
  * \return rectangles in the order of their discovery; none for options that are not
- * valid */
+ * valid or a mask of more than MAX_PRISM_CELLS cells along both sides */
 PCL_SQ_EXPORTS std::vector<CellRect>
 scanPrisms(const CellMask& mask,
            const PrismOptions& options = PrismOptions(),
            const std::vector<std::uint32_t>& points = {});
 
-/** \brief Fuses the valid voxels of a grid to prisms. */
+/** \brief Fuses the valid voxels of a grid, seen along z, to prisms. */
 PCL_SQ_EXPORTS std::vector<Prism>
 scanPrisms(const VoxelLayout& layout, const PrismOptions& options = PrismOptions());
 

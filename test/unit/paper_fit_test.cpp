@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/multi_superquadric.h"
 
 #include "paper_problem.h"
 #include "random_superquadric.h"
@@ -95,22 +96,23 @@ TEST(FitSuperquadricPaper, KeepsPoseAndFirstTwoSemiAxes) {
 }
 
 TEST(FitSuperquadricPaper, NormalEquationsMatchCentralDifferences) {
-  Random random(41);
-  const Superquadric truth = random.superquadric();
-  const Eigen::Matrix3Xd points = surfaceCloud(truth, 200, 1, 0.01);
-  const auto local = detail::PaperProblem::toLocal(points, truth);
+  Superquadric s; // size about one, as in the fit
+  s.semi_axes = {1.0, 0.6, 0.8};
+  const detail::UnitPoints points =
+      detail::toUnit(surfaceCloud(s, 500, 1, 0.1), detail::UnitFrame());
   for (const Cost cost : {Cost::PAPER, Cost::SOLINA, Cost::RADIAL})
     for (int free_axis = 0; free_axis < 3; ++free_axis) {
       PaperFitOptions options;
       options.cost = cost;
-      const detail::PaperProblem problem(local, truth, 0, free_axis, options);
-      const Eigen::Vector3d x(0.8, 1.1, std::log(1.1 * truth.semi_axes[free_axis]));
+      const detail::PaperProblem problem(points, s, free_axis, options);
+      const Eigen::Vector3d x(0.8, 1.1, std::log(1.1 * s.semi_axes[free_axis]));
       const auto normal = problem.linearise(x);
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d d = 1e-6 * Eigen::Vector3d::Unit(k);
+        const double h = 1e-3; // the sums are made of floats
+        const Eigen::Vector3d d = h * Eigen::Vector3d::Unit(k);
         const double slope =
-            (problem.linearise(x + d).cost - problem.linearise(x - d).cost) / 2e-6;
-        EXPECT_NEAR(2.0 * normal.gradient[k], slope, 1e-5 * normal.cost + 1e-9);
+            (problem.linearise(x + d).cost - problem.linearise(x - d).cost) / (2 * h);
+        EXPECT_NEAR(2.0 * normal.gradient[k], slope, 2e-3 * std::abs(slope) + 1e-5);
       }
     }
 }
@@ -121,14 +123,16 @@ TEST(FitSuperquadricPaper, OptimumIsNoWorseThanItsSurroundings) {
   const Superquadric start =
       initialSuperquadric(points, truth.center, truth.rotation, 0.06);
   const FitSummary fit = fitSuperquadricPaper(points, start);
-  const auto local = detail::PaperProblem::toLocal(points, fit.model);
-  const detail::PaperProblem problem(local, fit.model, 0, 2, {});
-  const Eigen::Vector3d x = problem.parametersOf(fit.model);
-  const double cost = problem.linearise(x).cost;
-  for (int k = 0; k < 3; ++k)
-    for (const double step : {-0.02, 0.02}) {
-      const Eigen::Vector3d y = problem.clamp(x + step * Eigen::Vector3d::Unit(k));
-      EXPECT_GE(problem.linearise(y).cost, cost * (1 - 1e-6));
+  for (const double step : {-0.02, 0.02})
+    for (int k = 0; k < 3; ++k) {
+      Superquadric other = fit.model;
+      (k == 0   ? other.epsilon1
+       : k == 1 ? other.epsilon2
+                : other.semi_axes.z()) *= 1.0 + step;
+      if (other.epsilon1 < 0.1 || other.epsilon2 < 0.1)
+        continue;
+      EXPECT_GE(MultiSuperquadric{{other}}.distortion(points),
+                fit.distortion * (1 - 1e-5));
     }
 }
 

@@ -29,6 +29,16 @@ bool PrismSegmentation<PointT>::segment(std::vector<pcl::PointIndices>& clusters
     deinitCompute();
     return false;
   }
+  if (std::min(layout_.divisions[0], layout_.divisions[1]) > MAX_PRISM_CELLS) {
+    PCL_ERROR(
+        "[pcl_sq::PrismSegmentation::segment] The grid has %d x %d voxels in x and "
+        "y, more than %d; ask for fewer divisions.\n",
+        layout_.divisions[0],
+        layout_.divisions[1],
+        MAX_PRISM_CELLS);
+    deinitCompute();
+    return false;
+  }
   prisms_ = scanPrisms(layout_, options_);
   do
     distribute(clusters);

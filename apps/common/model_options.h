@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud_io.h"
+
+#include "pcl_sq/model_io.h"
+#include "pcl_sq/object_surface_estimation.h"
+#include "pcl_sq/tabletop_segmentation.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pcl_sq::app {
+
+/** \brief What every program that makes a model asks the user. */
+struct ModelOptions {
+  EstimationOptions estimation;
+  unsigned int threads = 0;
+  std::vector<int> roi;    ///< x, y, w, h [px], or empty
+  std::vector<double> box; ///< min x y z, max x y z [m], or empty
+  bool remove_plane = false;
+  TabletopOptions tabletop;
+
+  std::string output; ///< model JSON
+  std::string mesh;
+  std::string grasp_points;
+  std::string snapshot;
+};
+
+/** \brief Adds the options to a program. */
+void addModelOptions(CLI::App& cli, ModelOptions& options);
+
+/** \brief Refuses contradictions and files that could not be written later. */
+void checkModelOptions(const ModelOptions& options);
+
+/** \brief A model and how it came about. */
+struct ModelResult {
+  ModelFile file;
+  EstimationReport report;
+  pcl::Indices object; ///< points that were given to the estimation
+};
+
+/** \brief Region, plane removal and estimation. \throw Failure if there is no model */
+ModelResult makeModel(const LoadedCloud& input,
+                      const std::string& input_path,
+                      const ModelOptions& options,
+                      double load_ms);
+
+/** \brief Writes the files that the options name. */
+void writeOutputs(const LoadedCloud& input,
+                  const ModelResult& result,
+                  const ModelOptions& options);
+
+/** \brief The result for people, on stdout. */
+void printSummary(const ModelResult& result);
+
+} // namespace pcl_sq::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app.h"
+#include "files.h"
+#include "model_options.h"
+
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+#include "pcl_sq/visualization/mesh_writer.h"
+#include "pcl_sq/visualization/snapshot_renderer.h"
+#endif
+
+#include <pcl/io/pcd_io.h>
+
+#include <cstdio>
+
+namespace pcl_sq::app {
+
+namespace {
+
+void writeGraspPoints(const std::string& path,
+                      const LoadedCloud& input,
+                      const pcl::Indices& indices) {
+  pcl::PointCloud<pcl::PointXYZRGBA> points(*input.cloud, indices);
+  if (points.empty())
+    throw Failure("no point lies on the model's surface; '" + path +
+                  "' is not written.");
+  writeAtomically(path, [&](const std::string& temporary) {
+    if (pcl::PCDWriter().writeBinary(temporary, points) != 0)
+      throw Failure("cannot write '" + path + "'.");
+  });
+}
+
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+void writeSnapshot(const std::string& path,
+                   const LoadedCloud& input,
+                   const ModelResult& result) {
+  const auto n = static_cast<Eigen::Index>(input.cloud->size());
+  Eigen::Matrix3Xd points(3, n);
+  SnapshotRenderer::Colors colors(3, input.has_color ? n : 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& p = (*input.cloud)[std::size_t(i)];
+    points.col(i) = p.getVector3fMap().cast<double>();
+    if (input.has_color)
+      colors.col(i) << p.r, p.g, p.b;
+  }
+  SnapshotRenderer renderer;
+  renderer.addCloud(points, colors);
+  renderer.addModel(result.file.model);
+  renderer.save(path);
+}
+
+void writeMeshFile(const std::string& path, const MultiSuperquadric& model) {
+  std::vector<TriangleMesh> parts;
+  for (const Superquadric& part : model.parts)
+    parts.push_back(meshSuperquadric(part));
+  writeMesh(path, parts);
+}
+#endif
+
+} // namespace
+
+void writeOutputs(const LoadedCloud& input,
+                  const ModelResult& result,
+                  const ModelOptions& options) {
+  if (!options.output.empty())
+    writeTextFile(options.output, toJson(result.file) + "\n");
+  if (!options.grasp_points.empty())
+    writeGraspPoints(options.grasp_points, input, result.report.grasp_indices);
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+  if (!options.mesh.empty())
+    writeMeshFile(options.mesh, result.file.model);
+  if (!options.snapshot.empty())
+    writeSnapshot(options.snapshot, input, result);
+#endif
+}
+
+void printSummary(const ModelResult& result) {
+  const ModelFile& file = result.file;
+  std::printf("%s: %zu points, %zu of them the object, %zu superquadric%s\n",
+              file.input_path.c_str(),
+              file.input_points,
+              result.report.region_points,
+              file.model.size(),
+              file.model.size() == 1 ? "" : "s");
+  std::printf("  part  points   size along its axes [mm]   e1    e2    rms [mm]\n");
+  for (std::size_t i = 0; i < file.model.size(); ++i) {
+    const Superquadric& s = file.model.parts[i];
+    const PartStatistics& statistics = file.statistics[i];
+    std::printf("  %4zu  %6zu   %7.1f %7.1f %7.1f   %4.2f  %4.2f  %7.2f\n",
+                i + 1,
+                statistics.points,
+                2e3 * s.semi_axes.x(),
+                2e3 * s.semi_axes.y(),
+                2e3 * s.semi_axes.z(),
+                s.epsilon1,
+                s.epsilon2,
+                1e3 * statistics.rms_distance);
+  }
+  std::printf(
+      "  distortion (paper's unit) %.3f, rms distance %.2f mm, %zu grasp points\n",
+      file.distortion * std::sqrt(1e9),
+      1e3 * file.rms_distance,
+      result.report.grasp_indices.size());
+  std::printf("  time:");
+  for (const auto& [stage, ms] : file.timings_ms)
+    std::printf(" %s %.1f ms", stage.c_str(), ms);
+  std::printf("\n");
+}
+
+} // namespace pcl_sq::app

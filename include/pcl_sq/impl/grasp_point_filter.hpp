@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/grasp_point_filter.h"
+
+#include <pcl/common/point_tests.h>
+#include <pcl/console/print.h>
+
+#include <cmath>
+
+namespace pcl_sq {
+
+template <typename PointT>
+GraspPointFilter<PointT>::GraspPointFilter(bool extract_removed_indices)
+    : pcl::FilterIndices<PointT>(extract_removed_indices) {
+  filter_name_ = "GraspPointFilter";
+}
+
+template <typename PointT>
+void GraspPointFilter<PointT>::setModel(const MultiSuperquadric& model) {
+  std::string why;
+  for (const Superquadric& part : model.parts)
+    if (!part.isValid(&why)) {
+      PCL_ERROR("[pcl_sq::%s::setModel] %s; the old model is kept.\n",
+                filter_name_.c_str(),
+                why.c_str());
+      return;
+    }
+  model_ = model;
+}
+
+template <typename PointT>
+void GraspPointFilter<PointT>::setGaugeTolerance(double tolerance) {
+  if (!(tolerance >= 0.0 && std::isfinite(tolerance))) {
+    PCL_ERROR("[pcl_sq::%s::setGaugeTolerance] The tolerance must not be negative; the "
+              "old one is kept.\n",
+              filter_name_.c_str());
+    return;
+  }
+  gauge_tolerance_ = tolerance;
+  metric_ = SurfaceMetric::GAUGE;
+}
+
+template <typename PointT>
+void GraspPointFilter<PointT>::setDistanceThreshold(double threshold) {
+  if (!(threshold >= 0.0 && std::isfinite(threshold))) {
+    PCL_ERROR("[pcl_sq::%s::setDistanceThreshold] The threshold must not be negative; "
+              "the old one is kept.\n",
+              filter_name_.c_str());
+    return;
+  }
+  distance_threshold_ = threshold;
+  metric_ = SurfaceMetric::DISTANCE;
+}
+
+template <typename PointT>
+void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
+  indices.clear();
+  removed_indices_->clear();
+  if (model_.empty())
+    PCL_WARN("[pcl_sq::%s::applyFilter] There is no model and so no point on its "
+             "surface; hand one to setModel().\n",
+             filter_name_.c_str());
+  const double tolerance =
+      metric_ == SurfaceMetric::GAUGE ? gauge_tolerance_ : distance_threshold_;
+  for (const auto index : *indices_) {
+    const PointT& point = (*input_)[static_cast<std::size_t>(index)];
+    if (!pcl::isXYZFinite(point))
+      continue;
+    const bool on_surface =
+        isOnSurface(model_, {point.x, point.y, point.z}, metric_, tolerance);
+    if (on_surface != negative_)
+      indices.push_back(index);
+    else if (extract_removed_indices_)
+      removed_indices_->push_back(index);
+  }
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/adaptive_voxel_grid.h"
+#include "pcl_sq/fit_parts.h"
+#include "pcl_sq/grasp_point_filter.h"
+#include "pcl_sq/object_surface_estimation.h"
+#include "pcl_sq/prism_segmentation.h"
+#include "pcl_sq/roi_crop.h"
+#include "pcl_sq/stage_timer.h"
+
+#include <pcl/console/print.h>
+
+#include <utility>
+
+namespace pcl_sq {
+
+namespace detail {
+
+/** \brief The chosen points as columns. */
+template <typename PointT>
+Eigen::Matrix3Xd gatherPoints(const pcl::PointCloud<PointT>& cloud,
+                              const pcl::Indices& indices) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices.size()));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) =
+        cloud[indices[i]].getVector3fMap().template cast<double>();
+  return points;
+}
+
+} // namespace detail
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::setOptions(const EstimationOptions& options) {
+  std::string why;
+  if (options.isValid(&why))
+    options_ = options;
+  else
+    PCL_ERROR("[pcl_sq::ObjectSurfaceEstimation::setOptions] %s; the options stay as "
+              "they were.\n",
+              why.c_str());
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
+  model = {};
+  report_ = {};
+  if (!initCompute())
+    return fail("there is no input cloud; call setInputCloud first");
+  StageTimer timer(report_.timings_ms);
+  // II-B: the points of the query region
+  pcl::IndicesPtr object(new pcl::Indices);
+  bool found = timer.run("crop", [&] { return cropRegion(object); });
+  // III-C, Figs. 3 and 4: voxels relative to the region, prisms of connected voxels
+  std::vector<pcl::PointIndices> clusters;
+  found = found && timer.run("decompose", [&] { return decompose(object, clusters); });
+  // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
+  found = found && timer.run("fit", [&] { return fitParts(object, clusters, model); });
+  if (found)
+    timer.run("evaluate", [&] {
+      evaluate(object, model);
+      return true;
+    });
+  // III-C, end: the points on the union's surface are where a hand may touch
+  if (found)
+    timer.run("grasp_points", [&] {
+      findGraspPoints(object, model);
+      return true;
+    });
+  deinitCompute();
+  return found;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::fail(const std::string& sentence) {
+  report_.failure = sentence;
+  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
+  return false;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
+  Eigen::AlignedBox3d box;
+  if (has_region_) {
+    RoiCrop<PointT> crop;
+    crop.setInputCloud(input_);
+    crop.setIndices(indices_);
+    crop.setRegion(region_);
+    crop.filter(*object);
+    box = Eigen::AlignedBox3d(region_.min, region_.max);
+  } else {
+    for (const auto index : *indices_) {
+      const auto point = (*input_)[index].getVector3fMap();
+      if (!point.allFinite())
+        continue;
+      object->push_back(index);
+      box.extend(point.template cast<double>());
+    }
+  }
+  report_.region_points = object->size();
+  if (object->empty())
+    return fail("no finite point lies in the region; check the box against the cloud's "
+                "extent");
+  report_.region.min = box.min();
+  report_.region.max = box.max();
+  return true;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::decompose(
+    const pcl::IndicesPtr& object, std::vector<pcl::PointIndices>& clusters) {
+  if (options_.decomposition == Decomposition::NONE) {
+    clusters.resize(1);
+    clusters[0].header = input_->header;
+    clusters[0].indices = *object;
+    return true;
+  }
+  std::string why; // the grid itself could only warn
+  if (!makeVoxelLayout(report_.region, options_.voxels, report_.voxels, &why))
+    return fail(why);
+  AdaptiveVoxelGrid<PointT> grid;
+  grid.setInputCloud(input_);
+  grid.setIndices(object);
+  grid.setRegion(report_.region);
+  grid.setOptions(options_.voxels);
+  pcl::PointCloud<PointT> centroids;
+  grid.filter(centroids);
+  report_.voxels = grid.getVoxelLayout();
+
+  PrismSegmentation<PointT> segmentation;
+  segmentation.setInputCloud(input_);
+  segmentation.setIndices(object);
+  segmentation.setVoxelLayout(report_.voxels);
+  segmentation.setOptions(options_.prisms);
+  segmentation.setExclusive(options_.exclusive_points);
+  if (!segmentation.segment(clusters))
+    return fail("no prism of connected voxels holds enough points; give more points or "
+                "ask for fewer divisions");
+  report_.prisms = segmentation.getPrisms();
+  return true;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
+                                               std::vector<pcl::PointIndices>& clusters,
+                                               MultiSuperquadric& model) {
+  std::vector<RoiBox> regions;
+  for (const Prism& prism : report_.prisms)
+    regions.push_back(prism.box);
+  if (regions.empty())
+    regions.push_back(report_.region);
+  const std::vector<PartFit> fits = pcl_sq::fitParts(
+      regions,
+      principalAxes(detail::gatherPoints(*input_, *object)),
+      [&](std::size_t part) {
+        return detail::gatherPoints(*input_, clusters[part].indices);
+      },
+      options_,
+      threads_);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    PartReport part;
+    part.indices = std::move(clusters[i]);
+    part.fit = fits[i].summary;
+    part.fit_ms = fits[i].milliseconds;
+    if (part.fit.ok()) {
+      part.model_part = static_cast<int>(model.size());
+      model.parts.push_back(part.fit.model);
+    }
+    report_.parts.push_back(std::move(part));
+  }
+  if (!model.empty())
+    return true;
+  return fail(std::to_string(object->size()) + " points give no superquadric (" +
+              toString(report_.parts.front().fit.termination) +
+              "): at least ten are needed, and they must span a volume");
+}
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
+                                               const MultiSuperquadric& model) {
+  const Eigen::Matrix3Xd points = detail::gatherPoints(*input_, *object);
+  report_.distortion = model.distortion(points);
+  report_.rms_distance = model.rmsDistance(points);
+}
+
+template <typename PointT>
+void ObjectSurfaceEstimation<PointT>::findGraspPoints(const pcl::IndicesPtr& object,
+                                                      const MultiSuperquadric& model) {
+  GraspPointFilter<PointT> filter;
+  filter.setInputCloud(input_);
+  filter.setIndices(object);
+  filter.setModel(model);
+  filter.setGaugeTolerance(options_.grasp_threshold);
+  filter.filter(report_.grasp_indices);
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/stereo/stereo_calibration.h"
+#include "pcl_sq/stereo/stereo_options.h"
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <utility>
+#include <vector>
+
+namespace pcl_sq {
+
+/** \brief What a stereo pair or a depth image becomes. */
+struct StereoResult {
+  /** Organized, in the left rectified camera's frame [m]; NaN where nothing matched
+   * (colours are there all the same), is_dense false. */
+  pcl::PointCloud<pcl::PointXYZRGB>::Ptr cloud;
+  cv::Mat disparity; ///< CV_32F [px], NaN where nothing matched; empty for depth images
+  cv::Mat left;      ///< rectified colour image (BGR) the cloud belongs to
+  cv::Mat right;     ///< the other one; empty for depth images
+  StereoIntrinsics intrinsics; ///< baseline 0 for depth images
+  double coverage = 0.0;       ///< share of pixels with depth, 0 to 1
+  /** Stages and their times [ms]: rectify, match, reproject. */
+  std::vector<std::pair<std::string, double>> timings_ms;
+};
+
+/** \brief Disparity by block matching (paper, II-A, Eq. 1) and the cloud from it.
+ *
+ * Sub-pixel disparities are kept (OpenCV's sixteenths), d = 0 and other marks of
+ * missing pixels become NaN, depth is computed in double precision.
+ * \ingroup pcl_sq */
+class PCL_SQ_EXPORTS StereoReprojector {
+public:
+  explicit StereoReprojector(StereoCalibration calibration = {})
+      : calibration_(std::move(calibration)) {}
+
+  /** \brief Sets the options; invalid ones are refused with a message. */
+  void setOptions(const StereoOptions& options);
+  const StereoOptions& getOptions() const { return options_; }
+  const StereoCalibration& getCalibration() const { return calibration_; }
+
+  /** \brief From a pair of 8-bit images to the cloud. \throws pcl_sq::Exception if the
+   * images do not suit each other or the calibration, have no texture, or seem
+   * exchanged */
+  StereoResult compute(const cv::Mat& left, const cv::Mat& right);
+
+  /** \brief Disparity of a rectified pair, CV_32F [px], NaN where nothing matched.
+   * \throws pcl_sq::Exception as compute() */
+  cv::Mat computeDisparity(const cv::Mat& left,
+                           const cv::Mat& right,
+                           const StereoIntrinsics& intrinsics) const;
+
+private:
+  StereoCalibration calibration_;
+  StereoOptions options_;
+};
+
+/** \brief The cloud of a disparity image; see StereoResult::cloud.
+ * \param[in] disparity CV_32F [px], NaN or infinity = missing
+ * \param[in] color 8-bit, grey or BGR, same size */
+PCL_SQ_EXPORTS pcl::PointCloud<pcl::PointXYZRGB>::Ptr reprojectDisparity(
+    const cv::Mat& disparity, const cv::Mat& color, const StereoIntrinsics& intrinsics);
+
+/** \brief The cloud of a depth image (Kinect, RealSense; the paper's future work).
+ * \param[in] depth CV_16U, 0 = missing, or CV_32F [units], NaN = missing
+ * \param[in] unit length of one step of \a depth [m]: 0.001 for the Kinect
+ * \param[in] color 8-bit of the same size, or empty \throws pcl_sq::Exception */
+PCL_SQ_EXPORTS StereoResult reprojectDepth(const cv::Mat& depth,
+                                           double unit,
+                                           const CameraIntrinsics& intrinsics,
+                                           const cv::Mat& color = cv::Mat());
+
+/** \brief Whether the two rectified images match better the other way round. */
+PCL_SQ_EXPORTS bool imagesSeemSwapped(const cv::Mat& left, const cv::Mat& right);
+
+} // namespace pcl_sq

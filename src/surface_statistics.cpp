@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_statistics.h"
+
+#include "unit_frame.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr Eigen::Index CHUNK = 4096; ///< points at a time: bounds the memory
+
+/** \brief Replaces each value by the entry of smaller size among all parts. */
+void keepNearest(const std::vector<float>& candidate, std::vector<float>& nearest) {
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+    if (std::abs(candidate[i]) < std::abs(nearest[i]))
+      nearest[i] = candidate[i];
+}
+
+} // namespace
+
+SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
+                                    const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+  SurfaceStatistics statistics;
+  if (model.empty())
+    return statistics;
+  const Eigen::AlignedBox3d box = model.boundingBox();
+  UnitFrame frame;
+  frame.origin = box.center();
+  frame.scale = 0.5 * box.sizes().maxCoeff();
+  std::vector<kernels::Shape> shapes;
+  std::vector<double> factors; // sqrt(a1 a2 a3), Eq. (7)
+  for (const Superquadric& part : model.parts) {
+    shapes.push_back(toShape(frame.toUnit(part)));
+    factors.push_back(std::sqrt(part.semi_axes.prod()));
+  }
+  const kernels::Kernels& loops = kernels::kernels();
+  std::vector<float> relative, nearest, metric, nearest_metric;
+  std::vector<double> nearest_factor;
+  double distortion = 0.0, squares = 0.0;
+  std::size_t count = 0;
+  for (Eigen::Index first = 0; first < points.cols(); first += CHUNK) {
+    const UnitPoints chunk =
+        toUnit(points.middleCols(first, std::min(CHUNK, points.cols() - first)), frame);
+    const std::size_t n = chunk.size();
+    relative.resize(n + kernels::BLOCK);
+    metric.resize(n + kernels::BLOCK);
+    nearest.assign(n, std::numeric_limits<float>::infinity());
+    nearest_metric.assign(n, std::numeric_limits<float>::infinity());
+    nearest_factor.assign(n, 0.0);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      loops.residuals(
+          chunk.view(), shapes[k], kernels::Residual::GAUGE, relative.data());
+      for (std::size_t i = 0; i < n; ++i)
+        if (std::abs(relative[i]) < std::abs(nearest[i])) {
+          nearest[i] = relative[i];
+          nearest_factor[i] = factors[k];
+        }
+      loops.residuals(
+          chunk.view(), shapes[k], kernels::Residual::FOOT_POINT, metric.data());
+      keepNearest(metric, nearest_metric);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      distortion += nearest_factor[i] * double(nearest[i]) * double(nearest[i]);
+      squares += double(nearest_metric[i]) * double(nearest_metric[i]);
+    }
+    count += n;
+  }
+  if (count > 0) {
+    statistics.distortion = distortion / double(count);
+    statistics.rms_distance = frame.scale * std::sqrt(squares / double(count));
+  }
+  return statistics;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/multi_superquadric.h"
+
+namespace pcl_sq::detail {
+
+/** \brief How well points lie on a union of superquadrics. */
+struct SurfaceStatistics {
+  double distortion = 0.0; ///< Eq. (7), each point charged to its nearest part by |G-1|
+  double rms_distance = 0.0; ///< of the foot-point distance to the nearest part [m]
+};
+
+/** \brief Both at once, in one pass with the vectorised kernels; non-finite points are
+ * left out. Zeros for no points or an empty model. */
+SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
+                                    const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
+} // namespace pcl_sq::detail

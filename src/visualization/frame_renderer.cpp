@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "visualization/frame_renderer.h"
+
+#include "pcl_sq/exception.h"
+#include "visualization/actors.h"
+#include "visualization/gl_display.h"
+#include "visualization/overlay.h"
+
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace pcl_sq {
+namespace {
+
+/// Larger pictures are rendered without enlargement: their pixels are fine enough.
+constexpr int LARGEST_SMOOTHED = 4096;
+
+/** \brief VTK's factories and X's error handler belong to the whole process. */
+std::mutex& renderMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/** \brief Libraries print nothing: VTK's messages are off while it works for us. */
+class QuietVtk {
+public:
+  QuietVtk() : before_(vtkObject::GetGlobalWarningDisplay()) {
+    vtkObject::GlobalWarningDisplayOff();
+  }
+  ~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before_); }
+  QuietVtk(const QuietVtk&) = delete;
+  QuietVtk& operator=(const QuietVtk&) = delete;
+
+private:
+  int before_;
+};
+
+/** \brief Mean of zoom x zoom pixels, rows turned top down. */
+SnapshotImage
+reduce(const vtkUnsignedCharArray& pixels, int width, int height, int zoom) {
+  SnapshotImage image{width, height, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(width) * height);
+  const unsigned char* from = const_cast<vtkUnsignedCharArray&>(pixels).GetPointer(0);
+  const std::size_t row = 3 * static_cast<std::size_t>(width) * zoom;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        int sum = 0;
+        for (int dy = 0; dy < zoom; ++dy)
+          for (int dx = 0; dx < zoom; ++dx)
+            sum += from[row * ((height - 1 - y) * zoom + dy) + 3 * (x * zoom + dx) + c];
+        image.rgb[3 * (static_cast<std::size_t>(y) * width + x) + c] =
+            static_cast<std::uint8_t>((sum + zoom * zoom / 2) / (zoom * zoom));
+      }
+  return image;
+}
+
+} // namespace
+
+struct FrameRenderer::Window {
+  // in this order: the window is gone before its display
+  std::unique_lock<std::mutex> lock{renderMutex()};
+  QuietVtk quiet;
+  GlDisplay display;
+  vtkNew<vtkRenderWindow> vtk;
+  int zoom = 2;
+};
+
+FrameRenderer::FrameRenderer(int width, int height)
+    : window_(std::make_unique<Window>()) {
+  if (std::max(width, height) > LARGEST_SMOOTHED)
+    window_->zoom = 1;
+  window_->vtk->SetDisplayId(window_->display.connection());
+  window_->vtk->SetOffScreenRendering(1);
+  window_->vtk->SetSize(window_->zoom * width, window_->zoom * height);
+  window_->vtk->SetMultiSamples(0); // depth peeling has no samples; we average instead
+  window_->vtk->SetAlphaBitPlanes(1);
+}
+
+FrameRenderer::~FrameRenderer() = default;
+
+SnapshotImage FrameRenderer::render(const SnapshotScene& scene,
+                                    const Eigen::Matrix3Xd& focus,
+                                    const ViewCamera& camera) {
+  const int zoom = window_->zoom;
+  vtkNew<vtkRenderer> renderer;
+  window_->vtk->AddRenderer(renderer);
+  const Color paper = scene.options.background;
+  renderer->SetBackground(paper.r / 255.0, paper.g / 255.0, paper.b / 255.0);
+  // translucent bodies in their order of depth, whatever their order of drawing
+  renderer->SetUseDepthPeeling(1);
+  renderer->SetMaximumNumberOfPeels(8);
+  renderer->SetOcclusionRatio(0.0);
+
+  Stage(renderer, camera, focus, zoom).add(scene);
+  Overlay overlay(renderer, camera.width(), camera.height(), zoom);
+  drawDecorations(overlay, OverlayLayout(scene), scene, camera);
+
+  window_->vtk->Render();
+  const int width = zoom * camera.width(), height = zoom * camera.height();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  const bool read =
+      window_->vtk->GetPixelData(0, 0, width - 1, height - 1, 0, pixels) != 0 &&
+      pixels->GetNumberOfValues() == 3LL * width * height;
+  window_->vtk->RemoveRenderer(renderer);
+  if (!read)
+    throw Exception(
+        "[pcl_sq::SnapshotRenderer::render] the display gives no picture of "
+        "that size; ask for a smaller one.");
+  return reduce(*pixels, camera.width(), camera.height(), zoom);
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Includes go downwards only: geometry and solver see Eigen and std, elements and pipeline
+# PCL, stereo OpenCV; VTK is in no header, OpenMP and iostream in no public one.
+set(failures "")
+
+# forbid(WHAT REGEX FILES...): no file includes what matches the expression
+function(forbid what regex)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS "${file}" includes REGEX "^[ \t]*#[ \t]*include")
+    list(FILTER includes INCLUDE REGEX "[<\"](${regex})")
+    if(includes)
+      file(RELATIVE_PATH name "${root}" "${file}")
+      list(JOIN includes ", " includes)
+      set(failures "${failures}\n${name} (${what}): ${includes}" PARENT_SCOPE)
+      set(failures "${failures}\n${name} (${what}): ${includes}")
+    endif()
+  endforeach()
+endfunction()
+
+set(public "${root}/include/pcl_sq")
+# layers 3 and 4: the class templates, and what else has a PCL base class
+file(GLOB elements "${public}/impl/*.hpp")
+list(TRANSFORM elements REPLACE ".*/(.*)\\.hpp$" "\\1")
+list(APPEND elements exception)
+list(JOIN elements "|" elements)
+
+file(GLOB core_headers "${public}/*.h" "${public}/impl/*.hpp")
+file(GLOB core_files "${root}/src/*.h" "${root}/src/*.cpp")
+file(GLOB_RECURSE all_headers "${public}/*.h" "${public}/*.hpp")
+
+set(mathematics ${core_headers})
+list(FILTER mathematics EXCLUDE REGEX "/impl/|/(${elements})\\.h$")
+forbid("layers 1-2 see Eigen and std only" "pcl/" ${mathematics})
+forbid("layers 1-2 are below the elements" "pcl_sq/(impl/|(${elements})\\.h)" ${mathematics})
+
+set(below_pipeline ${core_headers})
+list(FILTER below_pipeline EXCLUDE REGEX "object_surface_estimation")
+forbid("the pipeline is the top of core" "pcl_sq/object_surface_estimation"
+  ${below_pipeline})
+
+forbid("core is below stereo and visualization"
+  "pcl_sq/stereo|pcl_sq/visualization|opencv|vtk" ${core_headers} ${core_files})
+forbid("core never needs PCL's io or segmentation" "pcl/(io|segmentation|visualization)/"
+  ${core_headers} ${core_files})
+forbid("not in public headers" "vtk|omp\\.h|iostream|nlohmann" ${all_headers})
+
+file(GLOB_RECURSE stereo "${public}/stereo/*" "${root}/src/stereo/*")
+forbid("stereo and visualization stand side by side" "pcl_sq/visualization|vtk" ${stereo})
+file(GLOB_RECURSE visualization "${public}/visualization/*" "${root}/src/visualization/*")
+forbid("stereo and visualization stand side by side" "pcl_sq/stereo|opencv"
+  ${visualization})
+
+if(NOT core_headers OR NOT mathematics)
+  message(FATAL_ERROR "No headers found below ${root}: the check would be empty.")
+endif()
+if(failures)
+  message(FATAL_ERROR "Includes that go upwards:${failures}")
+endif()
