@@ -149,9 +149,12 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
     regions.push_back(prism.box);
   if (regions.empty())
     regions.push_back(report_.region);
+  // not in the call: the points would stay in memory during the fits
+  const Eigen::Matrix3d object_rotation =
+      principalAxes(detail::gatherPoints(*input_, *object));
   const std::vector<PartFit> fits = pcl_sq::fitParts(
       regions,
-      principalAxes(detail::gatherPoints(*input_, *object)),
+      object_rotation,
       [&](std::size_t part) {
         return detail::gatherPoints(*input_, clusters[part].indices);
       },
