@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(
-  build-essential cmake ninja-build ccache pkg-config git
+  build-essential cmake ninja-build ccache pkg-config git file
   libeigen3-dev libpcl-dev libopencv-dev libopencv-contrib-dev libvtk9-dev
   nlohmann-json3-dev libcli11-dev
   libgtest-dev libbenchmark-dev

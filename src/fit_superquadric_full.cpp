@@ -50,6 +50,7 @@ FitSummary fit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   summary.sigma = best.mixture.sigma * frame.scale;
   summary.rms_distance = summary.sigma;
   summary.outlier_share = best.mixture.outlier_share;
+  summary.distortion = best.nll; // DEV
   return summary;
 }
 

@@ -32,16 +32,6 @@ double areaOf(const Superquadric& m) {
   return std::exp(logArea(m.semi_axes, m.epsilon1, m.epsilon2).value);
 }
 
-/** \brief Area of the ellipsoid of the same axes times a factor: enough for a
- * mixture.*/
-double roughArea(const Superquadric& m) {
-  const double p = 1.6;
-  const double x = std::pow(m.semi_axes[0] * m.semi_axes[1], p);
-  const double y = std::pow(m.semi_axes[1] * m.semi_axes[2], p);
-  const double z = std::pow(m.semi_axes[0] * m.semi_axes[2], p);
-  return 14.0 * std::pow((x + y + z) / 3.0, 1.0 / p);
-}
-
 /** \brief New width and share from the sums of the last evaluation. */
 void update(Mixture& m, const NormalEquations& e, std::size_t n, const FitSetting& s) {
   if (e.share > 0.0)
@@ -60,12 +50,39 @@ double nll(double cost, std::size_t n, const Mixture& m, double area) {
   return 0.5 * cost / (m.sigma * m.sigma * double(n)) - std::log(peak * (1.0 + c));
 }
 
+double DEVK() {
+  static double k = getenv("K") ? atof(getenv("K")) : 1.0;
+  return k;
+}
+
+/** \brief The density of points on a surface of area A is 1/A: its logarithm as a cost,
+ * in squared lengths. It vanishes with the noise. */
+Contributor sizePrior(double weight, const Contributor& other) {
+  return [weight, other](const Superquadric& m, NormalEquations& e) {
+    const LogArea area = logArea(m.semi_axes, m.epsilon1, m.epsilon2);
+    e.cost += 2.0 * weight * area.value;
+    e.jtr.tail<5>() += weight * area.gradient;
+    e.jtj.bottomRightCorner<5, 5>() +=
+        weight * area.gradient * area.gradient.transpose();
+    if (other)
+      other(m, e);
+  };
+}
+
+void setPrior(LmOptions& o, const Mixture& m, std::size_t n, const FitSetting& s) {
+  o.contributor = s.contributor;
+  if (s.options.size_prior)
+    o.contributor =
+        sizePrior(DEVK() * m.sigma * m.sigma * (1.0 - m.outlier_share) * double(n),
+                  s.contributor);
+}
+
 void setMixture(LmOptions& o,
                 const Mixture& m,
                 const Superquadric& model,
                 bool robust) {
   o.sigma = robust ? m.sigma : 0.0;
-  o.outlier = robust ? m.outlier(roughArea(model)) : 0.0;
+  o.outlier = robust ? m.outlier(areaOf(model)) : 0.0;
 }
 
 /** \brief Annealed fit of one start: the mixture is estimated anew after every few
@@ -87,6 +104,8 @@ Candidate anneal(const UnitPoints& points,
   NormalEquations e;
   for (int k = 0; k < rounds; ++k) {
     setMixture(o, c.mixture, c.model, s.options.robust);
+    if (residual == Residual::FOOT_POINT)
+      setPrior(o, c.mixture, points.size(), s);
     const LmResult r = levenbergMarquardt(points, c.model, o);
     s.iterations += r.iterations;
     c.model = r.model;
@@ -98,7 +117,7 @@ Candidate anneal(const UnitPoints& points,
   }
   setMixture(o, c.mixture, c.model, s.options.robust);
   const double cost = evaluateCost(points, c.model, o);
-  c.nll = nll(cost, points.size(), c.mixture, roughArea(c.model));
+  c.nll = nll(cost, points.size(), c.mixture, areaOf(c.model));
   return c;
 }
 
@@ -201,21 +220,36 @@ Candidate search(const UnitPoints& points, FitSetting& s) {
   std::sort(candidates.begin(), candidates.end(), better);
   Candidate best;
   best.nll = 1e300;
-  for (std::size_t i = 0; i < 3 && i < candidates.size(); ++i) {
-    const Candidate c = anneal(
-        medium, candidates[i].model, candidates[i].mixture, Residual::RADIAL, 3, 5, s);
+  for (std::size_t i = 0; i < 4 && i < candidates.size(); ++i) {
+    const Candidate c = anneal(medium,
+                               candidates[i].model,
+                               candidates[i].mixture,
+                               Residual::FOOT_POINT,
+                               4,
+                               5,
+                               s);
     if (c.nll < best.nll)
       best = c;
   }
-  for (int round = 0; round < 2; ++round) {
-    std::vector<Superquadric> switched = {axisSwitched(best.model, 1),
-                                          axisSwitched(best.model, 2),
-                                          dualSwitched(best.model)};
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Superquadric> switched;
+    for (int k = 0; k < 3; ++k) {
+      const Superquadric turned = k == 0 ? best.model : axisSwitched(best.model, k);
+      if (k > 0)
+        switched.push_back(turned);
+      const Superquadric dual = dualSwitched(turned);
+      switched.push_back(dual);
+      if (k == 0) {
+        switched.push_back(axisSwitched(dual, 1));
+        switched.push_back(axisSwitched(dual, 2));
+      }
+    }
     Candidate next = best;
     for (const Superquadric& m : switched) {
       Mixture mixture = best.mixture;
       mixture.sigma = std::max(3.0 * mixture.sigma, 0.03);
-      const Candidate c = anneal(medium, m, mixture, Residual::RADIAL, 4, 5, s);
+      Candidate c = anneal(coarse, m, mixture, Residual::RADIAL, 3, 4, s);
+      c = anneal(medium, c.model, c.mixture, Residual::FOOT_POINT, 3, 5, s);
       if (c.nll < next.nll)
         next = c;
     }
@@ -240,6 +274,7 @@ Candidate refine(const UnitPoints& points,
   int left = s.options.max_iterations;
   for (int round = 0; left > 0; ++round) {
     setMixture(o, c.mixture, c.model, s.options.robust);
+    setPrior(o, c.mixture, points.size(), s);
     o.max_iterations = std::min(left, 6);
     last = levenbergMarquardt(points, c.model, o);
     s.iterations += last.iterations;
@@ -251,7 +286,7 @@ Candidate refine(const UnitPoints& points,
     if (settled && last.termination != Termination::MAX_ITERATIONS)
       break;
   }
-  c.nll = nll(last.equations.cost, points.size(), c.mixture, areaOf(c.model));
+  c.nll = nll(last.equations.points_cost, points.size(), c.mixture, areaOf(c.model));
   return c;
 }
 

@@ -124,7 +124,7 @@ NormalEquations normalEquations(const UnitPoints& points,
       e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
     e.jtr[i] = sums.products[i][11];
   }
-  e.cost = sums.cost;
+  e.cost = e.points_cost = sums.cost;
   e.share = sums.share;
   e.weighted = sums.products[11][11];
   return e;
@@ -195,7 +195,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
       const NormalEquations e = evaluate(points, candidate, o);
       if (e.cost < r.equations.cost) {
         const double decrease = r.equations.cost - e.cost;
-        const bool small = decrease <= o.cost_tolerance * std::abs(r.equations.cost);
+        const bool small = decrease <= o.cost_tolerance * r.equations.points_cost;
         r.model = candidate;
         r.equations = e;
         fresh = true;

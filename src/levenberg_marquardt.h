@@ -19,6 +19,7 @@ struct NormalEquations {
   Matrix11 jtj = Matrix11::Zero();
   Vector11 jtr = Vector11::Zero(); ///< half the cost's gradient
   double cost = 0.0;
+  double points_cost = 0.0; ///< the points' part of the cost
   double share = 0.0;    ///< expected number of inliers
   double weighted = 0.0; ///< sum of share r^2
 

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/line_intersection.h"
+
+#include "gauge.h"
+
+#include <limits>
+
+namespace pcl_sq {
+
+namespace {
+
+constexpr int MAX_STEPS = 80;        ///< a tangential line converges linearly
+constexpr double ON_SURFACE = 1e-12; ///< G - 1 that counts as on the surface
+
+/** \brief The line in axes in which the superquadric's box is the unit cube. */
+struct UnitLine {
+  Eigen::Vector3d origin, direction;
+};
+
+UnitLine toUnitCube(const Superquadric& s,
+                    const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d scale = s.semi_axes.cwiseInverse();
+  return {s.toLocal(origin).cwiseProduct(scale),
+          (s.rotation.transpose() * direction).cwiseProduct(scale)};
+}
+
+bool clipToUnitCube(const UnitLine& line, LineInterval& interval) {
+  double enter = -std::numeric_limits<double>::infinity();
+  double leave = -enter;
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(line.direction[k]) < 1e-300) {
+      if (std::abs(line.origin[k]) > 1.0)
+        return false;
+      continue;
+    }
+    const double a = (-1.0 - line.origin[k]) / line.direction[k];
+    const double b = (1.0 - line.origin[k]) / line.direction[k];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  if (!(enter <= leave) || !std::isfinite(enter) || !std::isfinite(leave))
+    return false;
+  interval = {enter, leave};
+  return true;
+}
+
+/** \brief Newton from outside towards the surface; \a sign is +1 for the entry.
+ * \return whether the surface was reached before \a limit */
+bool approach(const Superquadric& s,
+              const UnitLine& line,
+              double sign,
+              double limit,
+              double& at) {
+  const Eigen::Vector3d unit = Eigen::Vector3d::Ones();
+  for (int step = 0; step < MAX_STEPS; ++step) {
+    const Eigen::Vector3d p = line.origin + at * line.direction;
+    const detail::LogGauge g = detail::logGauge(p, unit, s.epsilon1, s.epsilon2);
+    const double value = std::exp(g.value);
+    if (value - 1.0 <= ON_SURFACE)
+      return true;
+    const double slope =
+        value * detail::logGaugeGradient(g, p).dot(line.direction) * sign;
+    if (!(slope < 0.0))
+      return false; // past the lowest point without having been inside
+    const double step_length = (value - 1.0) / -slope;
+    at += sign * step_length;
+    if (sign * (at - limit) > 0.0)
+      return false;
+  }
+  return true;
+}
+
+} // namespace
+
+bool intersectLineBox(const Superquadric& s,
+                      const Eigen::Vector3d& origin,
+                      const Eigen::Vector3d& direction,
+                      LineInterval& interval) {
+  return clipToUnitCube(toUnitCube(s, origin, direction), interval);
+}
+
+bool intersectLine(const Superquadric& s,
+                   const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction,
+                   LineInterval& interval) {
+  const UnitLine line = toUnitCube(s, origin, direction);
+  LineInterval box;
+  if (!clipToUnitCube(line, box))
+    return false;
+  LineInterval found = box;
+  if (!approach(s, line, 1.0, box.leave, found.enter) ||
+      !approach(s, line, -1.0, found.enter, found.leave))
+    return false;
+  interval = found;
+  return true;
+}
+
+} // namespace pcl_sq
