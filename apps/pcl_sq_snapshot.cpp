@@ -35,9 +35,19 @@ void parseSize(const std::string& text, SnapshotOptions& options) {
     throw app::UsageError("--size " + text + " is not of the form 1280x960.");
 }
 
+/** \brief An axis such as "-y", or three numbers such as "0,-0.8,-0.6". */
 Eigen::Vector3d parseUp(const std::string& text) {
-  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(text.back() - 'x');
-  return text.front() == '-' ? Eigen::Vector3d(-axis) : axis;
+  const bool negative = text.size() == 2 && text[0] == '-';
+  if (text.size() == (negative ? 2u : 1u) && text.back() >= 'x' && text.back() <= 'z') {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(text.back() - 'x');
+    return negative ? Eigen::Vector3d(-axis) : axis;
+  }
+  Eigen::Vector3d up;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &up.x(), &up.y(), &up.z(), &rest) != 3)
+    throw app::UsageError("--up " + text +
+                          " is neither an axis (x, -x, y, ...) nor three numbers.");
+  return up;
 }
 
 void configure(CLI::App& cli, Arguments& a) {
@@ -55,7 +65,7 @@ void configure(CLI::App& cli, Arguments& a) {
       ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
   cli.add_option("--up", a.up, "Upward axis of the cloud; cameras have y down")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->type_name("x|-x|y|-y|z|-z|X,Y,Z")
       ->capture_default_str();
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
       ->check(CLI::Range(1, 1000))

@@ -28,8 +28,10 @@ double sizeFromDensity(const std::vector<Eigen::Vector3d>& object,
   const double area = static_cast<double>(occupied.size()) * cell * cell;
   const double spacing = std::sqrt(area / static_cast<double>(object.size()));
   const double unit = std::min(camera.width(), camera.height()) / 960.0;
+  // in its own camera's view a cloud is a square grid, covered from sqrt(2) on
+  const double cover = camera.perspective() ? 1.5 : 1.1;
   return std::clamp(
-      1.1 * spacing, std::max(1.5 * unit, 1.0), std::max(5.0 * unit, 1.5));
+      cover * spacing, std::max(1.5 * unit, 1.0), std::max(5.0 * unit, 1.5));
 }
 
 /** \brief Distance of a point from the object: from the model's surface, or from the
