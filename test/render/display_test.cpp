@@ -5,7 +5,7 @@
 #include "visualization/private_xvfb.h"
 
 #include "environment_variable.h"
-#include "temporary_folder.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -77,11 +77,11 @@ TEST(Display, WithoutAnyTheSentenceNamesTheCure) {
 }
 
 TEST(Display, AServerThatEndsAtOnceIsAnErrorAndNotAHang) {
-  const test::TemporaryFolder folder;
-  std::ofstream(folder.file("Xvfb")) << "#!/bin/sh\nexit 1\n";
-  std::filesystem::permissions(folder.file("Xvfb"), std::filesystem::perms::owner_all);
+  const test::Folder folder;
+  std::ofstream(folder / "Xvfb") << "#!/bin/sh\nexit 1\n";
+  std::filesystem::permissions(folder / "Xvfb", std::filesystem::perms::owner_all);
   const EnvironmentVariable none("DISPLAY", nullptr);
-  const EnvironmentVariable broken("PATH", folder.file("").c_str());
+  const EnvironmentVariable broken("PATH", (folder / "").c_str());
   EXPECT_THROW(ballRenderer().render(), Exception);
 }
 

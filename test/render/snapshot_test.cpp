@@ -65,11 +65,11 @@ int wrongPixels(const SnapshotImage& image,
     for (int x = 0; x < image.width; x += 3) {
       const bool inside = meets(s, camera, x + 0.5, y + 0.5);
       bool border = false;
-      for (int k = 0; k < 4 && !border; ++k)
+      for (int k = 0; k < 8 && !border; ++k)
         border = meets(s,
                        camera,
-                       x + 0.5 + BORDER * std::cos(k * M_PI / 2),
-                       y + 0.5 + BORDER * std::sin(k * M_PI / 2)) != inside;
+                       x + 0.5 + BORDER * std::cos(k * M_PI / 4),
+                       y + 0.5 + BORDER * std::sin(k * M_PI / 4)) != inside;
       if (!border && inside != (image.at(x, y) != PAPER))
         ++wrong;
     }
