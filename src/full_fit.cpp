@@ -50,7 +50,10 @@ double nll(double cost, std::size_t n, const Mixture& m, double area) {
   return 0.5 * cost / (m.sigma * m.sigma * double(n)) - std::log(peak * (1.0 + c));
 }
 
-double DEVK() { static double k = getenv("K") ? atof(getenv("K")) : 1.0; return k; }
+double DEVK() {
+  static double k = getenv("K") ? atof(getenv("K")) : 1.0;
+  return k;
+}
 
 /** \brief The density of points on a surface of area A is 1/A: its logarithm as a cost,
  * in squared lengths. It vanishes with the noise. */
@@ -59,7 +62,8 @@ Contributor sizePrior(double weight, const Contributor& other) {
     const LogArea area = logArea(m.semi_axes, m.epsilon1, m.epsilon2);
     e.cost += 2.0 * weight * area.value;
     e.jtr.tail<5>() += weight * area.gradient;
-    e.jtj.bottomRightCorner<5, 5>() += weight * area.gradient * area.gradient.transpose();
+    e.jtj.bottomRightCorner<5, 5>() +=
+        weight * area.gradient * area.gradient.transpose();
     if (other)
       other(m, e);
   };
@@ -68,8 +72,9 @@ Contributor sizePrior(double weight, const Contributor& other) {
 void setPrior(LmOptions& o, const Mixture& m, std::size_t n, const FitSetting& s) {
   o.contributor = s.contributor;
   if (s.options.size_prior)
-    o.contributor = sizePrior(
-        DEVK() * m.sigma * m.sigma * (1.0 - m.outlier_share) * double(n), s.contributor);
+    o.contributor =
+        sizePrior(DEVK() * m.sigma * m.sigma * (1.0 - m.outlier_share) * double(n),
+                  s.contributor);
 }
 
 void setMixture(LmOptions& o,

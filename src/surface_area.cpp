@@ -36,7 +36,8 @@ AreaVectors unitAreaVectors(double epsilon1, double epsilon2) {
         const LogGauge g = logGauge(d, Eigen::Vector3d::Ones(), epsilon1, epsilon2);
         const Eigen::Vector3d v =
             logGaugeGradient(g, d) * std::exp(-2.0 * g.value) / (NODES * NODES);
-        const int k = (face * MERGED + i * MERGED / NODES) * MERGED + j * MERGED / NODES;
+        const int k =
+            (face * MERGED + i * MERGED / NODES) * MERGED + j * MERGED / NODES;
         vectors.col(k) += v;
         areas[k] += v.norm();
       }
@@ -73,7 +74,8 @@ LogArea logArea(const Eigen::Vector3d& a, double epsilon1, double epsilon2) {
   const int i = locate(epsilon1, f1);
   const int j = locate(epsilon2, f2);
   const AreaVectors low = (1.0 - f2) * table->at[i][j] + f2 * table->at[i][j + 1];
-  const AreaVectors high = (1.0 - f2) * table->at[i + 1][j] + f2 * table->at[i + 1][j + 1];
+  const AreaVectors high =
+      (1.0 - f2) * table->at[i + 1][j] + f2 * table->at[i + 1][j + 1];
   const AreaVectors left = (1.0 - f1) * table->at[i][j] + f1 * table->at[i + 1][j];
   const AreaVectors right =
       (1.0 - f1) * table->at[i][j + 1] + f1 * table->at[i + 1][j + 1];

@@ -121,6 +121,7 @@ bool TabletopOptions::isValid(std::string* why) const {
 
 bool findTabletopObject(const Eigen::Matrix3Xf& points,
                         const Eigen::Vector3f& viewpoint,
+                        const std::vector<bool>& candidates,
                         const TabletopOptions& options,
                         TablePlane& plane,
                         std::vector<int>& object,
@@ -152,6 +153,8 @@ bool findTabletopObject(const Eigen::Matrix3Xf& points,
       outline.add(points.col(i).cast<double>());
   std::vector<int> above;
   for (const int i : finite) {
+    if (!candidates.empty() && !candidates[i])
+      continue;
     const Eigen::Vector3d p = points.col(i).cast<double>();
     if (plane.signedDistance(p) > distance && outline.contains(p))
       above.push_back(i);

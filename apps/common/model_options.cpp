@@ -4,11 +4,14 @@
 #include "app.h"
 #include "files.h"
 
+#include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace pcl_sq::app {
 
@@ -179,20 +182,69 @@ std::string reportToJson(const EstimationReport& report) {
   return nlohmann::ordered_json{{"report", json}}.dump();
 }
 
-pcl::IndicesPtr chooseObject(const LoadedCloud& input, const ModelOptions& options) {
-  const auto& cloud = *input.cloud;
+using Point = pcl::PointXYZRGBA;
+
+/** \brief The points that the options point at, and their box where they name one. */
+struct Selection {
+  pcl::IndicesPtr indices = pcl::make_shared<pcl::Indices>();
+  bool has_region = false;
+  RoiBox region;
+};
+
+pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
+                              const PixelRect& rect) {
   auto indices = pcl::make_shared<pcl::Indices>();
+  for (int y = std::max(rect.y, 0);
+       y < std::min(rect.y + rect.height, int(cloud.height));
+       ++y)
+    for (int x = std::max(rect.x, 0);
+         x < std::min(rect.x + rect.width, int(cloud.width));
+         ++x)
+      indices->push_back(y * int(cloud.width) + x);
+  return indices;
+}
+
+/** \brief II-B: the aperture of the region in the image, or the object on the table. */
+Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
+  const auto& cloud = *input.cloud;
+  Selection selection;
+  PixelRect rect;
+  if (!options.roi.empty()) {
+    rect = {options.roi[0], options.roi[1], options.roi[2], options.roi[3]};
+    if (!cloud.isOrganized())
+      throw Failure("--roi needs an organized cloud (an image of points); use --box.");
+    if (pointsInImage(cloud, rect)->empty())
+      throw Failure("the --roi lies outside of the image of " +
+                    std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
+                    " pixels.");
+  }
   if (options.remove_plane) {
-    TabletopSegmentation<pcl::PointXYZRGBA> tabletop;
+    TabletopSegmentation<Point> tabletop;
     tabletop.setOptions(options.tabletop);
     tabletop.setInputCloud(input.cloud);
-    if (!tabletop.segment(*indices))
+    if (!rect.empty())
+      tabletop.setCandidates(pointsInImage(cloud, rect));
+    if (!tabletop.segment(*selection.indices))
       throw Failure(tabletop.getFailure() + ".");
+  } else if (!rect.empty()) {
+    RoiEstimator<Point> estimator;
+    estimator.setInputCloud(input.cloud);
+    estimator.setRect(rect);
+    selection.has_region = true;
+    if (!estimator.estimate(selection.region, *selection.indices))
+      throw Failure("the --roi holds no cluster of points at one depth.");
   } else {
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      indices->push_back(static_cast<pcl::index_t>(i));
+    selection.indices->resize(cloud.size());
+    std::iota(selection.indices->begin(), selection.indices->end(), 0);
   }
-  return indices;
+  if (!options.box.empty()) {
+    selection.has_region = true;
+    selection.region.min =
+        Eigen::Vector3d(options.box[0], options.box[1], options.box[2]);
+    selection.region.max =
+        Eigen::Vector3d(options.box[3], options.box[4], options.box[5]);
+  }
+  return selection;
 }
 
 } // namespace
@@ -254,25 +306,21 @@ ModelResult makeModel(const LoadedCloud& input,
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
   StageTimer timer(timings);
-  const pcl::IndicesPtr object =
+  const Selection selection =
       timer.run("object", [&] { return chooseObject(input, options); });
-  ObjectSurfaceEstimation<pcl::PointXYZRGBA> estimation;
+  ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
-  estimation.setIndices(object);
+  estimation.setIndices(selection.indices);
   estimation.setOptions(options.estimation);
   estimation.setNumberOfThreads(options.threads);
-  if (!options.box.empty()) {
-    RoiBox box;
-    box.min = Eigen::Vector3d(options.box[0], options.box[1], options.box[2]);
-    box.max = Eigen::Vector3d(options.box[3], options.box[4], options.box[5]);
-    estimation.setRegion(box);
-  }
+  if (selection.has_region)
+    estimation.setRegion(selection.region);
   MultiSuperquadric model;
   const bool found = estimation.estimate(model);
   result.report = estimation.getReport();
   if (!found)
     throw Failure(result.report.failure + ".");
-  result.object = *object;
+  result.object = *selection.indices;
 
   ModelFile& file = result.file;
   file.model = model;

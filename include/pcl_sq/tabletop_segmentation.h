@@ -46,6 +46,12 @@ public:
   void setOptions(const TabletopOptions& options);
   const TabletopOptions& getOptions() const { return options_; }
 
+  /** \brief Restricts the object, but not the plane, to some of the input indices; null
+   * (default) for no restriction. */
+  void setCandidates(const pcl::IndicesConstPtr& candidates) {
+    candidates_ = candidates;
+  }
+
   /** \brief Finds the object.
    * \param[out] object its points, in the order of the input indices; empty on failure
    * \return false, with a PCL_WARN, if there is no plane or nothing above it */
@@ -64,6 +70,7 @@ protected:
 
 private:
   TabletopOptions options_;
+  pcl::IndicesConstPtr candidates_;
   TablePlane plane_;
   std::string failure_;
 };
@@ -71,14 +78,17 @@ private:
 /** \brief The algorithm of TabletopSegmentation on bare points.
  * \param[in] points 3 x N; non-finite columns are left out
  * \param[in] viewpoint the camera's place [m]
+ * \param[in] candidates whether a column may belong to the object; empty: all may
  * \param[out] object columns of the object; empty on failure
  * \param[out] why the reason of a failure as a sentence (optional) */
-[[nodiscard]] PCL_SQ_EXPORTS bool findTabletopObject(const Eigen::Matrix3Xf& points,
-                                                     const Eigen::Vector3f& viewpoint,
-                                                     const TabletopOptions& options,
-                                                     TablePlane& plane,
-                                                     std::vector<int>& object,
-                                                     std::string* why = nullptr);
+[[nodiscard]] PCL_SQ_EXPORTS bool
+findTabletopObject(const Eigen::Matrix3Xf& points,
+                   const Eigen::Vector3f& viewpoint,
+                   const std::vector<bool>& candidates,
+                   const TabletopOptions& options,
+                   TablePlane& plane,
+                   std::vector<int>& object,
+                   std::string* why = nullptr);
 
 } // namespace pcl_sq
 

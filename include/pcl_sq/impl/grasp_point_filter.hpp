@@ -57,11 +57,10 @@ template <typename PointT>
 void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
   indices.clear();
   removed_indices_->clear();
-  if (model_.empty()) {
-    PCL_WARN("[pcl_sq::%s::applyFilter] There is no model; hand one to setModel().\n",
+  if (model_.empty())
+    PCL_WARN("[pcl_sq::%s::applyFilter] There is no model and so no point on its "
+             "surface; hand one to setModel().\n",
              filter_name_.c_str());
-    return;
-  }
   const double tolerance =
       metric_ == SurfaceMetric::GAUGE ? gauge_tolerance_ : distance_threshold_;
   for (const auto index : *indices_) {

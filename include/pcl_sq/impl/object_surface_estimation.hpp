@@ -3,6 +3,7 @@
 
 #include "pcl_sq/adaptive_voxel_grid.h"
 #include "pcl_sq/fit_parts.h"
+#include "pcl_sq/grasp_point_filter.h"
 #include "pcl_sq/object_surface_estimation.h"
 #include "pcl_sq/prism_segmentation.h"
 #include "pcl_sq/roi_crop.h"
@@ -185,14 +186,12 @@ void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
 template <typename PointT>
 void ObjectSurfaceEstimation<PointT>::findGraspPoints(const pcl::IndicesPtr& object,
                                                       const MultiSuperquadric& model) {
-  for (const auto index : *object) {
-    const Eigen::Vector3d p = (*input_)[index].getVector3fMap().template cast<double>();
-    for (const Superquadric& part : model.parts)
-      if (std::abs(part.gauge(p) - 1.0) <= options_.grasp_threshold) {
-        report_.grasp_indices.push_back(index);
-        break;
-      }
-  }
+  GraspPointFilter<PointT> filter;
+  filter.setInputCloud(input_);
+  filter.setIndices(object);
+  filter.setModel(model);
+  filter.setGaugeTolerance(options_.grasp_threshold);
+  filter.filter(report_.grasp_indices);
 }
 
 } // namespace pcl_sq

@@ -27,10 +27,19 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   for (std::size_t i = 0; i < indices_->size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) =
         (*input_)[(*indices_)[i]].getVector3fMap();
+  std::vector<bool> candidates;
+  if (candidates_) {
+    std::vector<bool> of_cloud(input_->size(), false);
+    for (const auto index : *candidates_)
+      of_cloud[static_cast<std::size_t>(index)] = true;
+    for (const auto index : *indices_)
+      candidates.push_back(of_cloud[static_cast<std::size_t>(index)]);
+  }
   std::vector<int> columns;
   failure_.clear();
   const bool found = findTabletopObject(points,
                                         input_->sensor_origin_.template head<3>(),
+                                        candidates,
                                         options_,
                                         plane_,
                                         columns,
