@@ -53,7 +53,7 @@ inline std::string slurp(const std::string& path) {
 }
 
 /** \brief How a program ended and what it said. */
-struct Run {
+struct ProgramRun {
   int code = -1; ///< exit code; 128 + signal after a crash
   std::string out, err;
   /** \brief Lines on stderr. */
@@ -67,7 +67,7 @@ struct Run {
 
 /** \brief Runs one of our programs.
  * \param[in] before shell text in front of it, for example "ulimit -v 500000;" */
-inline Run runProgram(const std::string& name,
+inline ProgramRun runProgram(const std::string& name,
                       const std::vector<std::string>& arguments,
                       const std::string& before = "") {
   const Folder folder;
@@ -76,7 +76,7 @@ inline Run runProgram(const std::string& name,
     command += " '" + argument + "'";
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());
-  Run run;
+  ProgramRun run;
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.out = slurp(folder / "out");
   run.err = slurp(folder / "err");
