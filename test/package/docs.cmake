@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The names that docs/paper_map.md mentions exist in the public headers.
+# The names that docs/paper_map.md mentions exist in the public headers, the programs of
+# README.md in apps/.
 file(GLOB_RECURSE headers "${root}/include/pcl_sq/*.h")
 set(declared "")
 foreach(header IN LISTS headers)
@@ -25,3 +26,15 @@ endforeach()
 if(unknown)
   message(FATAL_ERROR "docs/paper_map.md names what no header declares: ${unknown}")
 endif()
+
+file(READ "${root}/README.md" readme)
+string(REGEX MATCHALL "\n\\| `pcl_sq_[a-z]+`" programs "${readme}")
+if(NOT programs)
+  message(FATAL_ERROR "README.md has no table of programs any more")
+endif()
+foreach(row IN LISTS programs)
+  string(REGEX MATCH "pcl_sq_[a-z]+" program "${row}")
+  if(NOT EXISTS "${root}/apps/${program}.cpp")
+    message(FATAL_ERROR "README.md promises ${program}, which is not in apps/")
+  endif()
+endforeach()
