@@ -1,48 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper in one class: the visible side of a bottle in, a union of superquadrics
-// out.
+// The paper's chain on a cloud as a camera sees it: object on a table -> voxels ->
+// prisms
+// -> superquadrics -> grasp points.
 #include <pcl_sq/object_surface_estimation.h>
+#include <pcl_sq/tabletop_segmentation.h>
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <cmath>
 #include <iostream>
 
 namespace {
 
-// The front half of an upright can as a camera sees it, x right, y down, z forward [m].
-void addCan(double radius,
-            double top,
-            double bottom,
-            pcl::PointCloud<pcl::PointXYZ>& cloud) {
-  for (double y = top; y < bottom; y += 0.002)
-    for (double angle = -1.4; angle <= 1.4; angle += 0.05)
-      cloud.emplace_back(radius * std::sin(angle), y, 1.0 - radius * std::cos(angle));
+/** \brief A jar on a table, seen from the front: x right, y down, z forward [m]. */
+pcl::PointCloud<pcl::PointXYZ>::Ptr jarOnTable() {
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (float x = -0.3F; x < 0.3F; x += 0.005F)
+    for (float z = 0.7F; z < 1.3F; z += 0.005F)
+      cloud->push_back(pcl::PointXYZ(x, 0.1F, z));
+  const auto addWall = [&](float radius, float top, float bottom) {
+    for (float y = top; y < bottom; y += 0.002F)
+      for (float angle = 3.2F; angle < 6.2F; angle += 0.05F)
+        cloud->push_back(pcl::PointXYZ(
+            radius * std::cos(angle), y, 1.0F + radius * std::sin(angle)));
+  };
+  addWall(0.05F, -0.03F, 0.1F);    // the jar
+  addWall(0.04F, -0.08F, -0.03F); // its neck
+  return cloud;
 }
 
 } // namespace
 
 int main() {
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  addCan(0.035, 0.0, 0.18, *cloud);  // body
-  addCan(0.012, -0.09, 0.0, *cloud); // neck
+  const auto cloud = jarOnTable();
 
-  pcl_sq::EstimationOptions options;
-  options.paper_fit.axis_assignment = pcl_sq::AxisAssignment::BEST_OF_3;
+  pcl::IndicesPtr object(new pcl::Indices);
+  pcl_sq::TabletopSegmentation<pcl::PointXYZ> tabletop;
+  tabletop.setInputCloud(cloud);
+  if (!tabletop.segment(*object)) {
+    std::cerr << tabletop.getFailure() << '\n';
+    return 1;
+  }
+
   pcl_sq::ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
-  estimation.setOptions(options);
   estimation.setInputCloud(cloud);
+  estimation.setIndices(object);
   pcl_sq::MultiSuperquadric model;
-  if (!estimation.estimate(model))
-    return 1; // a PCL_WARN has said why
-
+  if (!estimation.estimate(model)) {
+    std::cerr << estimation.getReport().failure << '\n';
+    return 1;
+  }
   for (const pcl_sq::Superquadric& part : model.parts)
-    std::cout << "centre " << part.center.transpose() << " m, semi-axes "
-              << part.semi_axes.transpose() << " m, exponents " << part.epsilon1 << ' '
-              << part.epsilon2 << '\n';
-  const pcl_sq::EstimationReport& report = estimation.getReport();
-  std::cout << cloud->size() << " points, " << model.size()
-            << " superquadrics, rms distance " << 1000.0 * report.rms_distance
-            << " mm, " << report.grasp_indices.size() << " points to grasp at\n";
+    std::cout << "superquadric at " << part.center.transpose() << " m, semi-axes "
+              << part.semi_axes.transpose() << " m\n";
+  std::cout << estimation.getReport().grasp_indices.size()
+            << " points where a gripper may touch\n";
   return 0;
 }
