@@ -3,6 +3,7 @@
 #include "pcl_sq/fit_object.h"
 
 #include "object_piece.h"
+#include "option_check.h"
 
 #include <algorithm>
 
@@ -115,6 +116,15 @@ void mergeParts(const PieceContext& context, std::vector<Piece>& pieces, double 
 }
 
 } // namespace
+
+bool ObjectFitOptions::isValid(std::string* why) const {
+  OptionCheck check(why);
+  check.inRange("max_parts", max_parts, 1, 16);
+  check.inRange("parts", parts, 0, 16);
+  check.inRange("silhouette_lines", silhouette_lines, 8, 360);
+  check.inRange("noise", fit.noise, 0.0, 1e9);
+  return check.passed();
+}
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
   ObjectFit fit;

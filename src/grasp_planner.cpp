@@ -2,6 +2,7 @@
 #include "pcl_sq/grasp_planner.h"
 
 #include "grasp_search.h"
+#include "pcl_sq/grasp_quality.h"
 
 #include <algorithm>
 #include <sstream>

@@ -213,11 +213,13 @@ bool observeImage(Observation& o, std::string& why) {
   else if (o.object.empty()) {
     out.table = o.view.table;
     if (!findStandingObject(o.points, o.width, o.height, out.table, out.pixels)) {
-      why = "nothing was found that stands on a table; mark the object by a mask or a "
-            "region";
-      return false;
-    }
-    out.notes.push_back("the object is the largest thing that stands on the table");
+      out.table = o.view.table;
+      for (int c = 0; c < o.width * o.height; ++c)
+        out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
+      out.notes.push_back("nothing was found that stands on a table; all points are "
+                          "taken as the object");
+    } else
+      out.notes.push_back("the object is the largest thing that stands on the table");
   } else {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)

@@ -61,12 +61,21 @@ void drawScaleBar(Overlay& overlay,
 }
 
 /** \brief The cloud's axes as the picture shows them; nearer ones drawn last. */
-void drawTriad(Overlay& overlay, double text, const ViewCamera& camera) {
+void drawTriad(Overlay& overlay,
+               double text,
+               const SnapshotOptions& options,
+               const ViewCamera& camera) {
   static constexpr std::array<Color, 3> colors = {
       {{196, 48, 43}, {38, 140, 62}, {38, 84, 196}}};
   static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
   const double length = 2.6 * text;
   const Eigen::Vector2d origin(4.2 * text, overlay.height() - 4.2 * text);
+  Eigen::Matrix2Xd disc(2, 48);
+  for (int i = 0; i < 48; ++i)
+    disc.col(i) =
+        origin +
+        4.0 * text * Eigen::Vector2d(std::cos(i * M_PI / 24), std::sin(i * M_PI / 24));
+  overlay.polygon(disc, options.background, 0.75);
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return camera.forward()[a] > camera.forward()[b];
@@ -168,7 +177,7 @@ void drawDecorations(Overlay& overlay,
     return;
   drawTitle(overlay, layout.text, scene.options);
   if (scene.options.axes)
-    drawTriad(overlay, layout.text, camera);
+    drawTriad(overlay, layout.text, scene.options, camera);
   if (scene.options.scale_bar)
     drawScaleBar(overlay, layout.text, scene.options, camera);
   if (showsLegend(scene))
