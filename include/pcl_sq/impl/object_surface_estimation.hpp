@@ -108,6 +108,10 @@ bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
   if (object->empty())
     return fail("no finite point lies in the region; check the box against the cloud's "
                 "extent");
+  constexpr double FARTHEST = 1e7; // [m]; beyond, single precision has no shape left
+  if (box.min().minCoeff() < -FARTHEST || box.max().maxCoeff() > FARTHEST)
+    return fail("the region reaches farther than 1e7 m; remove the outliers or set a "
+                "region");
   report_.region.min = box.min();
   report_.region.max = box.max();
   return true;
