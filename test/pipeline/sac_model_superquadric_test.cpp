@@ -84,7 +84,8 @@ TEST(SampleConsensusModelSuperquadric, RansacFindsItInClutter) {
       ransac.refineModel();
       pcl::Indices inliers;
       ransac.getInliers(inliers);
-      EXPECT_GT(inliers.size(), 0.95 * (1.0 - clutter) * 1500);
+      // refineModel() tightens the threshold to three deviations of the inliers
+      EXPECT_GT(inliers.size(), 0.85 * (1.0 - clutter) * 1500);
       Eigen::VectorXf coefficients;
       ransac.getModelCoefficients(coefficients);
       EXPECT_LT(largestDeviation(Superquadric::fromCoefficients(coefficients), can()),
