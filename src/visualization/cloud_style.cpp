@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visualization/cloud_style.h"
 
+#include "visualization/ink.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +63,7 @@ StyledPoints styleClouds(const SnapshotScene& scene,
       const Eigen::Vector3d p = cloud.points.col(i);
       if (box.exteriorDistance(p) > reach || (camera.perspective() && !(p.z() > 0.0)))
         continue;
-      Color color = NEUTRAL;
+      Color color = inkOn(scene.options.background, NEUTRAL);
       if (cloud.colors.cols() > 0)
         color = {cloud.colors(0, i), cloud.colors(1, i), cloud.colors(2, i)};
       const double distance = distanceFrom(scene, box, p) / size;

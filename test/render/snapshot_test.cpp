@@ -44,14 +44,18 @@ bool meets(const Superquadric& s, const ViewCamera& camera, double x, double y) 
     return false; // outside of the ball around it
   const double reach = 2.0 * s.semi_axes.norm() / direction.norm();
   double low = middle - reach, high = middle + reach;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    if (s.gauge(origin + a * direction) < s.gauge(origin + b * direction))
+    const double gauge_a = s.gauge(origin + a * direction);
+    const double gauge_b = s.gauge(origin + b * direction);
+    if (std::min(gauge_a, gauge_b) <= 1.0)
+      return true;
+    if (gauge_a < gauge_b)
       high = b;
     else
       low = a;
   }
-  return s.gauge(origin + 0.5 * (low + high) * direction) <= 1.0;
+  return false;
 }
 
 /** \brief Pixels in which picture and mathematics differ, the border's own pixels left
