@@ -34,8 +34,11 @@ covarianceOf(const LmResult& last, const LmOptions& o, double sigma, double scal
   for (Eigen::Index k = 0; k < n; ++k)
     b.col(k) = basis.col(free[static_cast<std::size_t>(k)]);
   Eigen::MatrixXd information = b.transpose() * last.equations.jtj * b;
+  const double largest = n > 0 ? information.diagonal().maxCoeff() : 0.0;
+  if (!(largest > 0.0))
+    return Eigen::Matrix<double, 11, 11>::Zero();
   const Eigen::VectorXd size =
-      information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+      information.diagonal().cwiseMax(1e-12 * largest).cwiseSqrt().cwiseInverse();
   information = size.asDiagonal() * information * size.asDiagonal();
   information.diagonal().array() += 1e-9; // a direction that nothing determines
   const Eigen::MatrixXd inverse =

@@ -93,8 +93,10 @@ SnapshotImage FrameRenderer::render(const SnapshotScene& scene,
   window_->vtk->AddRenderer(renderer);
   const Color paper = scene.options.background;
   renderer->SetBackground(paper.r / 255.0, paper.g / 255.0, paper.b / 255.0);
-  // translucent bodies in their order of depth, whatever their order of drawing
-  renderer->SetUseDepthPeeling(1);
+  // translucent bodies in their order of depth, whatever their order of drawing; a
+  // single superquadric shows one layer and is spared the work
+  const bool layers = scene.model.size() > 1 || !scene.surfaces.empty();
+  renderer->SetUseDepthPeeling(layers ? 1 : 0);
   renderer->SetMaximumNumberOfPeels(8);
   renderer->SetOcclusionRatio(0.0);
 
