@@ -32,9 +32,10 @@ void addOutputs(CLI::App& cli, Outputs& o) {
       ->type_name("FILE");
   cli.add_option("--object-cloud", o.object_cloud, "The object's points alone")
       ->type_name("FILE");
-  cli.add_option("--disparity",
-                 o.disparity,
-                 "Disparity: .png (16-bit, 1/256 px, 0 = none) or .pfm (px, inf = none)")
+  cli.add_option(
+         "--disparity",
+         o.disparity,
+         "Disparity: .png (16-bit, 1/256 px, 0 = none) or .pfm (px, inf = none)")
       ->type_name("FILE");
   cli.add_option("--panel", o.panel, "The steps side by side, as the paper's Fig. 5")
       ->type_name("FILE");
@@ -126,9 +127,10 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
   nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
   const PixelRect& r = front.rect;
   extra["stereo"] = {
-      {"matcher", !o.depth.empty()                          ? "depth image"
-                  : o.stereo.matcher == StereoMatcher::SGBM ? "sgbm"
-                                                            : "bm"},
+      {"matcher",
+       !o.depth.empty()                          ? "depth image"
+       : o.stereo.matcher == StereoMatcher::SGBM ? "sgbm"
+                                                 : "bm"},
       {"wls", o.stereo.wls},
       {"coverage", front.stereo.coverage},
       {"roi", {r.x, r.y, r.width, r.height}},
@@ -167,11 +169,33 @@ PanelInput panelInput(const FrontResult& front,
   return in;
 }
 
-int work(const FrontOptions& front_options, ModelOptions model, const Outputs& outputs) {
-  checkFrontOptions(front_options, model.roi);
-  checkModelOptions(model);
-  checkOutputs(outputs);
-  const FrontResult front = runFront(front_options, model.roi);
+/** \brief Tells the model half what the images gave. The best mode looks at the whole
+ * scene through the outline, the paper's chain at the object's points in their box. */
+void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
+  model.roi.clear();
+  model.mask.clear();
+  const CameraIntrinsics& k = front.stereo.intrinsics;
+  model.intrinsics = {k.fx, k.fy, k.cx, k.cy};
+  if (!whole_scene) {
+    if (model.box.empty())
+      for (const Eigen::Vector3d& corner : {front.region.min, front.region.max})
+        model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
+    return;
+  }
+  const cv::Mat& mask = front.segment.mask;
+  if (mask.empty()) {
+    model.roi = {front.rect.x, front.rect.y, front.rect.width, front.rect.height};
+    return;
+  }
+  CellMask& cells = model.estimation.view.mask;
+  cells = CellMask(mask.cols, mask.rows);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      cells.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
+}
+
+void writeFront(const FrontResult& front, const Outputs& outputs) {
+  const StereoIntrinsics& k = front.stereo.intrinsics;
   if (!outputs.disparity.empty())
     writeDisparity(outputs.disparity, front.stereo.disparity);
   if (!outputs.cloud.empty())
@@ -180,29 +204,36 @@ int work(const FrontOptions& front_options, ModelOptions model, const Outputs& o
     writeImage(outputs.mask, front.segment.mask);
   if (!outputs.histogram.empty())
     writeImage(outputs.histogram,
-               plotDepthHistogram(front.histogram,
-                                  front.stereo.intrinsics.fx *
-                                      front.stereo.intrinsics.baseline));
-  const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
+               plotDepthHistogram(front.histogram, k.fx * k.baseline));
   if (!outputs.object_cloud.empty()) {
     pcl::PointCloud<pcl::PointXYZRGB> points;
     pcl::copyPointCloud(*front.stereo.cloud, front.object, points);
     writeCloud(outputs.object_cloud, points);
   }
-  // the region that the images gave is the model half's box
-  model.roi.clear();
-  if (model.box.empty())
-    for (const Eigen::Vector3d& corner : {front.region.min, front.region.max})
-      model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
+}
+
+int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
+  const bool best = model.estimation.decomposition == Decomposition::PARTS;
+  front_options.mask = model.mask;
+  front_options.intrinsics = model.intrinsics;
+  if (front_options.segment.empty() && front_options.mask.empty() && !best &&
+      !model.roi.empty() && front_options.click.empty() && front_options.color.empty())
+    front_options.segment = "none";
+  checkFrontOptions(front_options, model.roi);
+  checkModelOptions(model);
+  checkOutputs(outputs);
+  const FrontResult front = runFront(front_options, model.roi);
+  writeFront(front, outputs);
+  handOver(front, best, model);
+  const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
+  const LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
   const std::string input =
       front_options.left.empty() ? front_options.depth : front_options.left;
-  ModelResult result = makeModel(object, input, model, 0.0);
+  ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);
-  if (!outputs.panel.empty()) {
-    const LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
+  if (!outputs.panel.empty())
     writeImage(outputs.panel, drawPanel(panelInput(front, scene, object, result)));
-  }
   if (!quiet())
     printSummary(result);
   return DONE;

@@ -137,6 +137,24 @@ cv::Mat prismTile(const PanelInput& in) {
   return canvas.picture().clone();
 }
 
+/** \brief The points in the colours of their parts. */
+cv::Mat partTile(const PanelInput& in, double turn) {
+  ViewCanvas canvas(TILE, grown(in.region, 0.05), turn, turn > 0.0 ? TILT : 0.0);
+  Dots dots;
+  for (const auto& p : *in.object) {
+    const Eigen::Vector3d v = p.getVector3fMap().cast<double>();
+    if (!v.allFinite())
+      continue;
+    dots.points.push_back(v);
+    const cv::Vec3b part = colorOf(in.model.nearestPart(v));
+    // half the colour of the part, half that of the image
+    dots.colors.emplace_back(
+        (part[0] * 2 + p.b) / 3, (part[1] * 2 + p.g) / 3, (part[2] * 2 + p.r) / 3);
+  }
+  canvas.addPoints(dots.points, dots.colors, 3);
+  return canvas.picture().clone();
+}
+
 cv::Mat modelTile(const PanelInput& in, double turn, double tilt) {
   const Eigen::AlignedBox3d box = in.model.boundingBox();
   RoiBox focus;
@@ -151,7 +169,8 @@ cv::Mat modelTile(const PanelInput& in, double turn, double tilt) {
 }
 
 void place(cv::Mat& panel, int column, int row, const cv::Mat& tile, const char* text) {
-  const cv::Point at(column * (TILE.width + 8) + 8, row * (TILE.height + CAPTION + 8) + 8);
+  const cv::Point at(column * (TILE.width + 8) + 8,
+                     row * (TILE.height + CAPTION + 8) + 8);
   tile.copyTo(panel(cv::Rect(at.x, at.y + CAPTION, TILE.width, TILE.height)));
   cv::putText(panel,
               text,
@@ -176,8 +195,18 @@ cv::Mat drawPanel(const PanelInput& in) {
   const cv::Mat plot = plotDepthHistogram(in.histogram, in.disparity_scale, inset);
   plot.copyTo(query(cv::Rect(TILE.width - inset.width, 0, inset.width, inset.height)));
   place(panel, 1, 0, query, "(b) query region and aperture");
-  place(panel, 2, 0, voxelTile(in), "(c) voxels");
-  place(panel, 0, 1, prismTile(in), "(d) prisms");
+  // the best mode divides by its own rule: its parts' points stand for voxels, prisms
+  const bool paper = !in.report.voxels.empty();
+  place(panel,
+        2,
+        0,
+        paper ? voxelTile(in) : partTile(in, 0.0),
+        paper ? "(c) voxels" : "(c) parts of the cloud");
+  place(panel,
+        0,
+        1,
+        paper ? prismTile(in) : partTile(in, TURN),
+        paper ? "(d) prisms" : "(d) parts, from the side");
   place(panel, 1, 1, modelTile(in, 0.0, 0.0), "(e) superquadrics, from the camera");
   place(panel, 2, 1, modelTile(in, TURN, TILT), "(e) superquadrics, from the side");
   return panel;

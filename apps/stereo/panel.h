@@ -17,7 +17,7 @@ struct PanelInput {
   DepthHistogram histogram;
   double disparity_scale = 0.0; ///< focal length times baseline [px m]
   RoiBox region;                ///< 3D query
-  pcl::PointCloud<pcl::PointXYZRGBA>::ConstPtr cloud; ///< the whole scene
+  pcl::PointCloud<pcl::PointXYZRGBA>::ConstPtr cloud;  ///< the whole scene
   pcl::PointCloud<pcl::PointXYZRGBA>::ConstPtr object; ///< NaN outside of the object
   EstimationReport report;
   MultiSuperquadric model;

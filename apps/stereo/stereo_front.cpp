@@ -18,7 +18,8 @@ namespace {
 cv::Mat loadImage(const std::string& path, int flags = cv::IMREAD_COLOR) {
   const cv::Mat image = cv::imread(path, flags);
   if (image.empty())
-    throw Failure("cannot read the image '" + path + "'; check the name and the format.");
+    throw Failure("cannot read the image '" + path +
+                  "'; check the name and the format.");
   return image;
 }
 
@@ -34,13 +35,15 @@ StereoResult loadDepth(const FrontOptions& o) {
 }
 
 /** \brief The object in the image, by whatever hint there is. */
-Segment findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
+Segment
+findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
     cv::Mat mask = loadImage(o.mask, cv::IMREAD_GRAYSCALE);
     if (mask.size() != s.left.size())
-      throw Failure("the mask and the image differ in size; give a mask of the rectified "
-                    "left image.");
+      throw Failure(
+          "the mask and the image differ in size; give a mask of the rectified "
+          "left image.");
     segment.mask = mask > 127;
     segment.rect = boundingRect(segment.mask);
     if (segment.rect.empty())
@@ -49,8 +52,7 @@ Segment findObject(const FrontOptions& o, const std::vector<int>& roi, StereoRes
   }
   ObjectSegmenter segmenter;
   SegmenterOptions options;
-  options.method =
-      o.segment == "color" ? SegmentMethod::COLOR : SegmentMethod::GRABCUT;
+  options.method = o.segment == "color" ? SegmentMethod::COLOR : SegmentMethod::GRABCUT;
   segmenter.setOptions(options);
   bool found = false;
   if (!o.click.empty())
@@ -69,8 +71,7 @@ Segment findObject(const FrontOptions& o, const std::vector<int>& roi, StereoRes
     reprojector.setOptions(dense);
     const StereoResult other = reprojector.compute(s.left, s.right);
     found = segmenter.segmentTabletop(s.left, *other.cloud, segment);
-  }
-  else
+  } else
     found = segmenter.segmentTabletop(s.left, *s.cloud, segment);
   if (!found)
     throw Failure(segmenter.getFailure() + ".");
@@ -84,7 +85,7 @@ void filterBorder(const FrontOptions& o, FrontResult& r) {
   pcl::IndicesPtr indices(new pcl::Indices(r.object));
   filter.setIndices(indices);
   filter.setMask(r.segment.mask);
-  filter.setBlockSize(o.stereo.block_size != 0 ? o.stereo.block_size
+  filter.setBlockSize(o.stereo.block_size != 0                ? o.stereo.block_size
                       : o.stereo.matcher == StereoMatcher::BM ? 15
                                                               : 5);
   filter.filter(r.object);
@@ -133,11 +134,13 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
       ->capture_default_str();
   const std::map<std::string, StereoMatcher> matchers{{"bm", StereoMatcher::BM},
                                                       {"sgbm", StereoMatcher::SGBM}};
-  cli.add_option("--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
+  cli.add_option(
+         "--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
       ->transform(CLI::CheckedTransformer(matchers).description(""))
       ->type_name("NAME")
       ->default_str("bm");
-  cli.add_option("--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
+  cli.add_option(
+      "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
   cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found");
   cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found");
   cli.add_option("--uniqueness", o.stereo.uniqueness, "Margin of the best match [%]")
@@ -151,12 +154,13 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--depth-unit", o.depth_unit, "Length of one step of it [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  cli.add_option("--intrinsics", o.intrinsics, "Of the depth image [px]")
-      ->expected(4)
-      ->delimiter(',')
-      ->type_name("FX,FY,CX,CY");
-  cli.add_option("--segment", o.segment, "Find the object's outline: color|grabcut")
-      ->check(CLI::IsMember({"color", "grabcut"}));
+  cli.add_option(
+         "--segment",
+         o.segment,
+         "How the object's outline is found; none: only the box of --roi counts")
+      ->type_name("none|color|grabcut")
+      ->default_str("grabcut, with the paper's preset and --roi none")
+      ->check(CLI::IsMember({"none", "color", "grabcut"}));
   auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
                     ->expected(2)
                     ->delimiter(',')
@@ -166,8 +170,6 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
       ->delimiter(',')
       ->type_name("R,G,B")
       ->excludes(click);
-  cli.add_option("--mask", o.mask, "The object's outline as an image, white = object")
-      ->type_name("FILE");
   cli.add_flag("--border-filter",
                o.border_filter,
                "Texture-based filter of the object's rim (section IV)");
@@ -182,33 +184,35 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
       throw UsageError("give a left and a right image (or --depth and --intrinsics).");
     if (o.calib.empty())
       throw UsageError("--calib is missing; give the calibration of the pair.");
-  }
-  else {
+  } else {
     if (!o.right.empty())
       throw UsageError("give either a right image or --depth, not both.");
     if (o.intrinsics.size() != 4)
       throw UsageError("--depth needs --intrinsics FX,FY,CX,CY.");
-    if (o.left.empty() && o.mask.empty() && (!o.segment.empty() || roi.empty()))
-      throw UsageError("give the colour image, or --roi, for the depth image.");
+    if (o.left.empty() && o.mask.empty() && !roi.empty() && o.segment != "none")
+      throw UsageError(
+          "give the colour image, or --segment none, for the depth image.");
   }
-  if (!o.mask.empty() && !o.segment.empty())
+  const bool box_only = o.segment == "none";
+  if (!o.mask.empty() && !o.segment.empty() && !box_only)
     throw UsageError("give either --mask or --segment, not both.");
-  if (o.border_filter && o.segment.empty() && o.mask.empty() && !roi.empty())
-    throw UsageError("--border-filter needs the object's outline: --segment or --mask.");
+  if (box_only && (roi.empty() || !o.click.empty() || !o.color.empty()))
+    throw UsageError("--segment none needs --roi and no other hint.");
+  if (o.border_filter && box_only && o.mask.empty())
+    throw UsageError(
+        "--border-filter needs the object's outline: --segment or --mask.");
 }
 
 FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   FrontResult r;
   StageTimer timer(r.timings_ms);
   if (o.depth.empty()) {
-    const auto images = timer.run("load", [&] {
-      return std::make_pair(loadImage(o.left), loadImage(o.right));
-    });
+    const auto images = timer.run(
+        "load", [&] { return std::make_pair(loadImage(o.left), loadImage(o.right)); });
     StereoReprojector reprojector(StereoCalibration::load(o.calib, o.calib_unit));
     reprojector.setOptions(o.stereo);
     r.stereo = reprojector.compute(images.first, images.second);
-  }
-  else
+  } else
     r.stereo = timer.run("load", [&] { return loadDepth(o); });
   r.timings_ms.insert(
       r.timings_ms.end(), r.stereo.timings_ms.begin(), r.stereo.timings_ms.end());
@@ -217,11 +221,9 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   const auto height = static_cast<int>(r.stereo.cloud->height);
   if (!roi.empty() && (roi[0] >= width || roi[1] >= height || roi[0] + roi[2] <= 0 ||
                        roi[1] + roi[3] <= 0))
-    throw Failure("--roi lies outside of the image of " + std::to_string(width) + " x " +
-                  std::to_string(height) + " px; give a region within it.");
-  const bool box_only = o.segment.empty() && o.click.empty() && o.color.empty() &&
-                        o.mask.empty() && !roi.empty();
-  if (box_only)
+    throw Failure("--roi lies outside of the image of " + std::to_string(width) +
+                  " x " + std::to_string(height) + " px; give a region within it.");
+  if (o.segment == "none" && o.mask.empty())
     r.rect = {roi[0], roi[1], roi[2], roi[3]};
   else {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });

@@ -19,7 +19,7 @@ struct FrontOptions {
   std::string depth;              ///< depth image instead of a right one
   double depth_unit = 0.001;      ///< of its steps [m]
   std::vector<double> intrinsics; ///< fx, fy, cx, cy of the depth image
-  std::string segment;            ///< "", "color" or "grabcut"
+  std::string segment;            ///< "", "none", "color" or "grabcut"
   std::vector<int> click, color;  ///< hints: pixel; red, green, blue
   std::string mask;               ///< mask image instead of a segmentation
   bool border_filter = false;
@@ -28,15 +28,16 @@ struct FrontOptions {
 /** \brief The object's points and where they come from. */
 struct FrontResult {
   StereoResult stereo;
-  Segment segment;    ///< its mask is empty if only a box is known
-  PixelRect rect;     ///< 2D query
+  Segment segment; ///< its mask is empty if only a box is known
+  PixelRect rect;  ///< 2D query
   DepthHistogram histogram;
-  RoiBox region;      ///< 3D query
+  RoiBox region;       ///< 3D query
   pcl::Indices object; ///< points of the object in the stereo cloud
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 
-/** \brief Adds the options to a program. */
+/** \brief Adds the options to a program, but for those it shares with the model half:
+ * mask and intrinsics. */
 void addFrontOptions(CLI::App& cli, FrontOptions& options);
 /** \brief Refuses contradictions. \throw UsageError */
 void checkFrontOptions(const FrontOptions& options, const std::vector<int>& roi);

@@ -143,7 +143,8 @@ void ViewCanvas::addMesh(const TriangleMesh& mesh,
   for (const auto& t : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
     const Eigen::Vector3d normal =
-        rotation_ * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();
+        rotation_ *
+        (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();
     const double shade = 0.45 + 0.55 * std::max(0.0, normal.dot(light));
     cv::Vec3b shaded;
     for (int k = 0; k < 3; ++k)
@@ -155,9 +156,11 @@ void ViewCanvas::addMesh(const TriangleMesh& mesh,
   blend(layer, depth, opacity);
 }
 
-void ViewCanvas::addSolidBox(const RoiBox& box, const cv::Vec3b& color, double opacity) {
+void ViewCanvas::addSolidBox(const RoiBox& box,
+                             const cv::Vec3b& color,
+                             double opacity) {
   addMesh(meshBox(box), color, opacity);
-  addWireBox(box, color / 2, 1);
+  addWireBox(box, color * 0.8, 1);
 }
 
 void ViewCanvas::addWireBox(const RoiBox& box, const cv::Vec3b& color, int width) {
