@@ -54,11 +54,13 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
        {"prisms", Decomposition::PRISMS},
        {"parts", Decomposition::PARTS}},
       "One superquadric, one per prism of voxels, or as many as the data ask for");
-  addChoice<FitMode>(cli,
-                     "--fit",
-                     options.fit,
-                     {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
-                     "The paper's three parameters, or all eleven");
+  addChoice<FitMode>(
+      cli,
+      "--fit",
+      options.fit,
+      {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
+      "The paper's three parameters, or all eleven; full is the default of "
+      "--decomposition none");
   PaperFitOptions& fit = options.paper_fit;
   addChoice<Cost>(
       cli,

@@ -45,10 +45,11 @@ CellMask readMask(const std::string& path) {
 
 void addViewOptions(CLI::App& cli, ModelOptions& options) {
   auto preset = std::make_shared<std::string>();
-  cli.add_option("--preset",
-                 *preset,
-                 "best: points, outline and table, parts found; paper: the paper's chain "
-                 "(also chosen by its own options)")
+  cli.add_option(
+         "--preset",
+         *preset,
+         "best: points, outline and table, parts found; paper: the paper's chain "
+         "(also chosen by its own options)")
       ->type_name("paper|best")
       ->default_str("best")
       ->check(CLI::IsMember({"paper", "best"}));
@@ -94,16 +95,19 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
           "NX,NY,NZ,D",
           "Table n.p + d = 0, n towards the camera; else found in organized clouds");
   cli.parse_complete_callback([&cli, &options, preset] {
-    const bool paper_option = std::any_of(
-        std::begin(PAPER_OPTIONS), std::end(PAPER_OPTIONS), [&cli](const char* name) {
-          return cli.count(name) > 0;
-        });
+    const bool paper_option =
+        std::any_of(std::begin(PAPER_OPTIONS),
+                    std::end(PAPER_OPTIONS),
+                    [&cli](const char* name) { return cli.count(name) > 0; });
     const bool paper = *preset == "paper" || (preset->empty() && paper_option);
     if (paper && cli.count("--decomposition") == 0)
       options.estimation.decomposition = Decomposition::PRISMS;
+    if (!paper && options.estimation.decomposition == Decomposition::NONE)
+      options.estimation.fit = FitMode::FULL;
     if (paper && options.estimation.decomposition == Decomposition::PARTS)
-      throw UsageError("--decomposition parts is no part of the paper's chain; leave out "
-                       "the paper's options");
+      throw UsageError(
+          "--decomposition parts is no part of the paper's chain; leave out "
+          "the paper's options");
   });
 }
 
@@ -122,7 +126,8 @@ ViewOptions makeView(const ModelOptions& options) {
         options.viewpoint[0], options.viewpoint[1], options.viewpoint[2]);
   if (options.table.size() == 4) {
     TableModel table;
-    table.normal = Eigen::Vector3d(options.table[0], options.table[1], options.table[2]);
+    table.normal =
+        Eigen::Vector3d(options.table[0], options.table[1], options.table[2]);
     const double length = table.normal.norm();
     if (!(length > 0.0))
       throw Failure("the normal of --table must not be zero.");

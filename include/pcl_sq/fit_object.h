@@ -8,8 +8,8 @@ namespace pcl_sq {
 
 /** \brief Settings of fitObject(). */
 struct PCL_SQ_EXPORTS ObjectFitOptions {
-  int max_parts = 6;       ///< largest number of parts that is looked for, [1, 16]
-  int parts = 0;           ///< number of parts; 0: found, [0, 16]
+  int max_parts = 6;         ///< largest number of parts that is looked for, [1, 16]
+  int parts = 0;             ///< number of parts; 0: found, [0, 16]
   int silhouette_lines = 48; ///< per part, [8, 360]
   SupportFitOptions fit;
 
@@ -21,10 +21,10 @@ struct PCL_SQ_EXPORTS ObjectFitOptions {
 /** \brief An object as a union of superquadrics. */
 struct ObjectFit {
   MultiSuperquadric model;
-  std::vector<SupportFit> parts;  ///< one per part of the model
-  std::vector<int> labels;        ///< part of each observed point, -1: none
-  double bic = 0.0;               ///< of the whole object
-  double single_bic = 0.0;        ///< of one superquadric
+  std::vector<SupportFit> parts; ///< one per part of the model
+  std::vector<int> labels;       ///< part of each observed point, -1: none
+  double bic = 0.0;              ///< of the whole object
+  double single_bic = 0.0;       ///< of one superquadric
 };
 
 /** \brief Fits one superquadric, or as many as the data ask for.

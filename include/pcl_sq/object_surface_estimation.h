@@ -18,8 +18,8 @@ namespace pcl_sq {
 struct PartReport {
   pcl::PointIndices indices; ///< points it was fitted to, in the input cloud
   FitSummary fit;
-  double fit_ms = 0.0; ///< time of the fit [ms]
-  int model_part = -1; ///< its index in the model; -1 if it gave none (see fit)
+  double fit_ms = 0.0;  ///< time of the fit [ms]
+  int model_part = -1;  ///< its index in the model; -1 if it gave none (see fit)
   ShapeCandidate shape; ///< family of shapes chosen (Decomposition::PARTS)
   double margin = 0.0;  ///< BIC by which the next family is worse
 };

@@ -53,19 +53,19 @@ PCL_SQ_EXPORTS const char* toString(OutlineSource source);
 
 /** \brief An object as one camera saw it: points, outline and table. */
 struct PCL_SQ_EXPORTS ObservedObject {
-  Eigen::Matrix3Xd points;   ///< to be fitted, free of rim and gross outliers [m]
-  std::vector<int> columns;  ///< the points' columns in the input
-  PinholeCamera camera;      ///< real, or virtual for bare points
+  Eigen::Matrix3Xd points;  ///< to be fitted, free of rim and gross outliers [m]
+  std::vector<int> columns; ///< the points' columns in the input
+  PinholeCamera camera;     ///< real, or virtual for bare points
   std::vector<ContourPoint> contour;
   OutlineSource outline = OutlineSource::NONE;
-  double outline_sigma = 0.6;    ///< [px]
-  double outline_dilation = 0.35;///< sigma [px]
-  double outline_offset = 0.0;   ///< expected dilation [px]
+  double outline_sigma = 0.6;     ///< [px]
+  double outline_dilation = 0.35; ///< sigma [px]
+  double outline_offset = 0.0;    ///< expected dilation [px]
   std::optional<TableModel> table;
-  double effective_points = 0.0; ///< independent ones among the points
-  double depth = 1.0;            ///< of the object [m]
-  double extent = 0.0;           ///< half diagonal of the points' box [m]
-  CellMask pixels;               ///< the object's, of the real or virtual image
+  double effective_points = 0.0;  ///< independent ones among the points
+  double depth = 1.0;             ///< of the object [m]
+  double extent = 0.0;            ///< half diagonal of the points' box [m]
+  CellMask pixels;                ///< the object's, of the real or virtual image
   std::vector<std::string> notes; ///< fall-backs, one sentence each
 
   bool hasCamera() const { return outline != OutlineSource::NONE; }

@@ -57,11 +57,12 @@ bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
     found = found && timer.run("observe", [&] { return observe(object); });
   // III-C, Figs. 3 and 4: voxels relative to the region, prisms of connected voxels
   std::vector<pcl::PointIndices> clusters;
-  found = found && (parts || timer.run("decompose", [&] { return decompose(object, clusters); }));
+  found = found && (parts || timer.run("decompose",
+                                       [&] { return decompose(object, clusters); }));
   // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
   found = found && timer.run("fit", [&] {
-            return parts ? fitObject(model) : fitParts(object, clusters, model);
-          });
+    return parts ? fitObject(model) : fitParts(object, clusters, model);
+  });
   if (found)
     timer.run("evaluate", [&] {
       evaluate(object, model);
@@ -107,6 +108,10 @@ bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
   if (object->empty())
     return fail("no finite point lies in the region; check the box against the cloud's "
                 "extent");
+  constexpr double FARTHEST = 1e7; // [m]; beyond, single precision has no shape left
+  if (box.min().minCoeff() < -FARTHEST || box.max().maxCoeff() > FARTHEST)
+    return fail("the region reaches farther than 1e7 m; remove the outliers or set a "
+                "region");
   report_.region.min = box.min();
   report_.region.max = box.max();
   return true;
