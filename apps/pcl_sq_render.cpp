@@ -32,8 +32,7 @@ struct Options {
   unsigned int threads = 0;
 };
 
-void
-addOptions(CLI::App& cli, Options& o) {
+void addOptions(CLI::App& cli, Options& o) {
   auto* scene = cli.add_option("scene", o.scene, "Object on the table")
                     ->check(CLI::IsMember(objectNames()));
   auto* mesh = cli.add_option("--mesh", o.mesh_path, "Any object: OBJ, STL or PLY");
@@ -47,7 +46,8 @@ addOptions(CLI::App& cli, Options& o) {
   cli.add_option("-o,--out", o.folder, "Folder for the results; made if absent")
       ->required()
       ->type_name("DIR");
-  cli.add_option("--rig", o.rig, "bumblebee: 1024x768, f 1310 px; vga: 640x480, f 811.6")
+  cli.add_option(
+         "--rig", o.rig, "bumblebee: 1024x768, f 1310 px; vga: 640x480, f 811.6")
       ->check(CLI::IsMember({"bumblebee", "vga", "small"}))
       ->capture_default_str();
   cli.add_option("--distance", o.distance, "Depth of the object's middle [m]")
@@ -69,15 +69,15 @@ addOptions(CLI::App& cli, Options& o) {
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
   cli.add_option("--seed", o.seed, "Same seed, same bytes")->capture_default_str();
-  cli.add_flag("--distortion",
-               o.distortion,
-               "Also raw_left.png, raw_right.png, calib_raw.yml: the same scene through "
-               "distorted, slightly turned cameras");
+  cli.add_flag(
+      "--distortion",
+      o.distortion,
+      "Also raw_left.png, raw_right.png, calib_raw.yml: the same scene through "
+      "distorted, slightly turned cameras");
   cli.add_option("--threads", o.threads, "0 = all cores")->check(CLI::Range(0, 1024));
 }
 
-cv::Mat
-matrix(const Eigen::MatrixXd& m) {
+cv::Mat matrix(const Eigen::MatrixXd& m) {
   cv::Mat result(static_cast<int>(m.rows()), static_cast<int>(m.cols()), CV_64F);
   for (int i = 0; i < result.rows; ++i)
     for (int j = 0; j < result.cols; ++j)
@@ -85,16 +85,14 @@ matrix(const Eigen::MatrixXd& m) {
   return result;
 }
 
-Eigen::Matrix3d
-cameraMatrix(const SceneCamera& c) {
+Eigen::Matrix3d cameraMatrix(const SceneCamera& c) {
   Eigen::Matrix3d k;
   k << c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1;
   return k;
 }
 
 /** \brief P1, P2 and Q of the ideal rig under OpenCV's names. */
-void
-writeProjections(cv::FileStorage& out, const StereoRig& rig) {
+void writeProjections(cv::FileStorage& out, const StereoRig& rig) {
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(3, 4);
   p.leftCols<3>() = cameraMatrix(rig.left);
   out << "P1" << matrix(p);
@@ -110,8 +108,9 @@ writeProjections(cv::FileStorage& out, const StereoRig& rig) {
   out << "Q" << matrix(q);
 }
 
-void
-writeCalibration(const std::string& path, const StereoRig& ideal, const StereoRig* raw) {
+void writeCalibration(const std::string& path,
+                      const StereoRig& ideal,
+                      const StereoRig* raw) {
   writeAtomically(path, [&](const std::string& temporary) {
     cv::FileStorage out(temporary, cv::FileStorage::WRITE);
     if (!out.isOpened())
@@ -135,35 +134,32 @@ writeCalibration(const std::string& path, const StereoRig& ideal, const StereoRi
   });
 }
 
-void
-writeImage(const std::string& path, const cv::Mat& image) {
+void writeImage(const std::string& path, const cv::Mat& image) {
   writeAtomically(path, [&](const std::string& temporary) {
     if (!cv::imwrite(temporary, image))
       throw Failure("cannot write '" + path + "'.");
   });
 }
 
-void
-writeImage(const std::string& path, RenderedImage image) {
+void writeImage(const std::string& path, RenderedImage image) {
   writeImage(path, cv::Mat(image.height, image.width, CV_8UC3, image.bgr.data()));
 }
 
-StereoRig
-makeRig(const Options& o) {
+StereoRig makeRig(const Options& o) {
   if (o.rig == "bumblebee")
     return app::makeRig(1024, 768, 1310.0, 0.12);
   return o.rig == "vga" ? app::makeRig(640, 480, 811.6, 0.12)
                         : app::makeRig(320, 240, 405.8, 0.12);
 }
 
-SceneTruth
-makeTruth(const Options& o,
-          const SceneObject& object,
-          const Scene& scene,
-          const StereoRig& rig,
-          const RenderedTruth& seen) {
+SceneTruth makeTruth(const Options& o,
+                     const SceneObject& object,
+                     const Scene& scene,
+                     const StereoRig& rig,
+                     const RenderedTruth& seen) {
   SceneTruth t;
-  t.scene = o.scene.empty() ? std::filesystem::path(o.mesh_path).stem().string() : o.scene;
+  t.scene =
+      o.scene.empty() ? std::filesystem::path(o.mesh_path).stem().string() : o.scene;
   t.seed = o.seed;
   t.width = rig.left.width;
   t.height = rig.left.height;
@@ -187,15 +183,14 @@ makeTruth(const Options& o,
   return t;
 }
 
-int
-work(const Options& o) {
+int work(const Options& o) {
   if (o.scene.empty() == o.mesh_path.empty())
     throw UsageError("give one scene or --mesh FILE.");
   if (o.offset.size() != 2)
     throw UsageError("--offset needs two numbers: X,Y.");
-  SceneObject object =
-      o.mesh_path.empty() ? makeObject(o.scene)
-                          : makeObject(readMesh(o.mesh_path), o.up[0], o.mesh_unit);
+  SceneObject object = o.mesh_path.empty()
+                           ? makeObject(o.scene)
+                           : makeObject(readMesh(o.mesh_path), o.up[0], o.mesh_unit);
   const double distance = o.distance > 0.0 ? o.distance : object.distance;
   const double yaw = std::isnan(o.yaw) ? object.yaw : o.yaw * DEGREE;
   Scene scene = placeOnTable(
@@ -209,7 +204,8 @@ work(const Options& o) {
   const StereoRig rig = makeRig(o);
   const RenderedTruth seen = renderTruth(scene, mesh, rig.left, o.threads);
   if (seen.visible_pixels == 0)
-    throw Failure("the object is not in sight; change --distance, --offset or --pitch.");
+    throw Failure(
+        "the object is not in sight; change --distance, --offset or --pitch.");
 
   std::error_code error;
   std::filesystem::create_directories(o.folder, error);
@@ -234,8 +230,10 @@ work(const Options& o) {
     disparity.ptr<float>()[i] = static_cast<float>(
         rig.left.fx * rig.baseline / seen.depth[static_cast<std::size_t>(i)]);
   writeImage(folder + "disparity.pfm", disparity);
-  writeImage(folder + "mask.png",
-             cv::Mat(seen.height, seen.width, CV_8U, const_cast<std::uint8_t*>(seen.mask.data())));
+  writeImage(
+      folder + "mask.png",
+      cv::Mat(
+          seen.height, seen.width, CV_8U, const_cast<std::uint8_t*>(seen.mask.data())));
   writePly(folder + "mesh.ply", object.mesh);
   const SceneTruth truth = makeTruth(o, object, scene, rig, seen);
   writeTextFile(folder + "truth.json", toJson(truth));
@@ -248,8 +246,7 @@ work(const Options& o) {
 
 } // namespace
 
-int
-main(int argc, char** argv) {
+int main(int argc, char** argv) {
   Options options;
   return run(
       argc,

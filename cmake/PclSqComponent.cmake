@@ -21,7 +21,8 @@ function(pcl_sq_component name)
   add_library(${target} SHARED $<TARGET_OBJECTS:${target}_objects>)
   add_library(pcl_sq::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    INSTALL_RPATH "$ORIGIN") # a component finds core beside it, whatever the prefix
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   foreach(library ${target} ${target}_objects)
     target_compile_features(${library} PUBLIC cxx_std_17)

@@ -50,23 +50,19 @@ CellRect boundsOf(const CellMask& mask, const CellRect& within) {
   return bounds;
 }
 
-/** Large rectangles, each cut back to the cells that none before it covers; they are
- * taken out of \a rest. */
+/** Large rectangles, taken out of \a rest; a cell that one has covered is missing for
+ * the next, or it would join what sticks out of the first on opposite sides. */
 std::vector<CellRect> takeRectangles(CellMask& rest, double least) {
   std::vector<int> weights(rest.cells.size());
-  for (std::size_t c = 0; c < weights.size(); ++c)
-    weights[c] = rest.cells[c] ? 1 : -1;
   std::vector<CellRect> rects;
   for (;;) {
+    for (std::size_t c = 0; c < weights.size(); ++c)
+      weights[c] = rest.cells[c] ? 1 : -1;
     const CellRect rect = heaviestRect(weights, rest.width, rest.height);
-    const CellRect own = boundsOf(rest, rect);
-    if (own.area() == 0 || countCells(rest, rect) < least)
+    if (rect.area() == 0 || countCells(rest, rect) < least)
       return rects;
-    rects.push_back(own);
+    rects.push_back(rect);
     clearCells(rest, rect);
-    for (int y = rect.y; y < rect.y + rect.height; ++y)
-      for (int x = rect.x; x < rect.x + rect.width; ++x)
-        weights[rest.indexOf(x, y)] = std::min(0, weights[rest.indexOf(x, y)]);
   }
 }
 

@@ -13,12 +13,11 @@ constexpr std::uint32_t LEAF_SIZE = 4;
 constexpr double NO_HIT = std::numeric_limits<double>::infinity();
 
 /** \brief Entry of the ray into the box, or NO_HIT (slab test). */
-double
-enter(const Eigen::Vector3d& min,
-      const Eigen::Vector3d& max,
-      const Eigen::Vector3d& origin,
-      const Eigen::Vector3d& inverse,
-      double t_max) {
+double enter(const Eigen::Vector3d& min,
+             const Eigen::Vector3d& max,
+             const Eigen::Vector3d& origin,
+             const Eigen::Vector3d& inverse,
+             double t_max) {
   double from = 0.0, to = t_max;
   for (int k = 0; k < 3; ++k) {
     double a = (min[k] - origin[k]) * inverse[k];
@@ -35,13 +34,12 @@ enter(const Eigen::Vector3d& min,
 }
 
 /** \brief Moeller & Trumbore 1997. \param[out] front whether hit from outside */
-double
-hitTriangle(const Eigen::Vector3d& a,
-            const Eigen::Vector3d& b,
-            const Eigen::Vector3d& c,
-            const Eigen::Vector3d& origin,
-            const Eigen::Vector3d& direction,
-            bool* front) {
+double hitTriangle(const Eigen::Vector3d& a,
+                   const Eigen::Vector3d& b,
+                   const Eigen::Vector3d& c,
+                   const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction,
+                   bool* front) {
   const Eigen::Vector3d e1 = b - a, e2 = c - a;
   const Eigen::Vector3d p = direction.cross(e2);
   const double det = e1.dot(p);
@@ -61,11 +59,10 @@ hitTriangle(const Eigen::Vector3d& a,
 
 /** \brief Squared distance to a triangle (Ericson 2005, Real-Time Collision Detection,
  * 5.1.5). */
-double
-squaredDistance(const Eigen::Vector3d& p,
-                const Eigen::Vector3d& a,
-                const Eigen::Vector3d& b,
-                const Eigen::Vector3d& c) {
+double squaredDistance(const Eigen::Vector3d& p,
+                       const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b,
+                       const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0)
@@ -93,10 +90,9 @@ squaredDistance(const Eigen::Vector3d& p,
   return (ap - (vb / sum) * ab - (vc / sum) * ac).squaredNorm();
 }
 
-double
-squaredDistance(const Eigen::Vector3d& p,
-                const Eigen::Vector3d& min,
-                const Eigen::Vector3d& max) {
+double squaredDistance(const Eigen::Vector3d& p,
+                       const Eigen::Vector3d& min,
+                       const Eigen::Vector3d& max) {
   return (min - p).cwiseMax(p - max).cwiseMax(0.0).squaredNorm();
 }
 
@@ -108,9 +104,8 @@ MeshBvh::MeshBvh(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   std::iota(order_.begin(), order_.end(), 0u);
   centers_.reserve(count);
   for (const auto& t : mesh_.triangles) {
-    centers_.push_back((mesh_.vertices[t[0]] + mesh_.vertices[t[1]] +
-                        mesh_.vertices[t[2]]) /
-                       3.0);
+    centers_.push_back(
+        (mesh_.vertices[t[0]] + mesh_.vertices[t[1]] + mesh_.vertices[t[2]]) / 3.0);
     for (const std::uint32_t v : t)
       box_.extend(mesh_.vertices[v]);
   }
@@ -121,8 +116,7 @@ MeshBvh::MeshBvh(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   build(0, 0, count);
 }
 
-void
-MeshBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+void MeshBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   Eigen::AlignedBox3d box, center_box;
   for (std::uint32_t i = first; i < first + count; ++i) {
     for (const std::uint32_t v : mesh_.triangles[order_[i]])
@@ -152,10 +146,9 @@ MeshBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
 }
 
 template <typename Visit>
-void
-MeshBvh::walkRay(const Eigen::Vector3d& origin,
-                 const Eigen::Vector3d& direction,
-                 Visit&& visit) const {
+void MeshBvh::walkRay(const Eigen::Vector3d& origin,
+                      const Eigen::Vector3d& direction,
+                      Visit&& visit) const {
   if (nodes_.empty())
     return;
   const Eigen::Vector3d inverse = direction.cwiseInverse();
@@ -187,15 +180,12 @@ MeshBvh::walkRay(const Eigen::Vector3d& origin,
   }
 }
 
-RayHit
-MeshBvh::intersect(const Eigen::Vector3d& origin,
-                   const Eigen::Vector3d& direction,
-                   double t_max) const {
+RayHit MeshBvh::intersect(const Eigen::Vector3d& origin,
+                          const Eigen::Vector3d& direction,
+                          double t_max) const {
   RayHit hit;
   walkRay(
-      origin,
-      direction,
-      [&](std::uint32_t triangle, double t, bool, double* limit) {
+      origin, direction, [&](std::uint32_t triangle, double t, bool, double* limit) {
         if (t < t_max && t < hit.t) {
           hit.t = t;
           hit.triangle = triangle;
@@ -206,10 +196,9 @@ MeshBvh::intersect(const Eigen::Vector3d& origin,
   return hit;
 }
 
-bool
-MeshBvh::occluded(const Eigen::Vector3d& origin,
-                  const Eigen::Vector3d& direction,
-                  double t_max) const {
+bool MeshBvh::occluded(const Eigen::Vector3d& origin,
+                       const Eigen::Vector3d& direction,
+                       double t_max) const {
   bool found = false;
   walkRay(origin, direction, [&](std::uint32_t, double t, bool, double*) {
     found = found || t < t_max;
@@ -218,8 +207,7 @@ MeshBvh::occluded(const Eigen::Vector3d& origin,
   return found;
 }
 
-bool
-MeshBvh::contains(const Eigen::Vector3d& point) const {
+bool MeshBvh::contains(const Eigen::Vector3d& point) const {
   if (nodes_.empty() || !box_.contains(point))
     return false;
   // odd directions: no ray of a symmetric mesh runs along an edge; two of three decide
@@ -237,8 +225,7 @@ MeshBvh::contains(const Eigen::Vector3d& point) const {
   return votes >= 2;
 }
 
-double
-MeshBvh::distance(const Eigen::Vector3d& point) const {
+double MeshBvh::distance(const Eigen::Vector3d& point) const {
   double best = NO_HIT;
   if (nodes_.empty())
     return best;
@@ -250,11 +237,10 @@ MeshBvh::distance(const Eigen::Vector3d& point) const {
       continue;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const auto& t = mesh_.triangles[order_[i]];
-      best = std::min(best,
-                      squaredDistance(point,
-                                      mesh_.vertices[t[0]],
-                                      mesh_.vertices[t[1]],
-                                      mesh_.vertices[t[2]]));
+      best = std::min(
+          best,
+          squaredDistance(
+              point, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]));
     }
     if (node.count != 0)
       continue;
@@ -269,8 +255,7 @@ MeshBvh::distance(const Eigen::Vector3d& point) const {
   return std::sqrt(best);
 }
 
-Eigen::Vector3d
-MeshBvh::normal(std::uint32_t triangle) const {
+Eigen::Vector3d MeshBvh::normal(std::uint32_t triangle) const {
   const auto& t = mesh_.triangles[triangle];
   return (mesh_.vertices[t[1]] - mesh_.vertices[t[0]])
       .cross(mesh_.vertices[t[2]] - mesh_.vertices[t[0]])

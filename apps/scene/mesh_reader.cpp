@@ -75,12 +75,12 @@ private:
         if (!(words >> v.x() >> v.y() >> v.z()))
           fail("has a vertex without three numbers");
         mesh_.vertices.push_back(v);
-      }
-      else if (word == "f") {
+      } else if (word == "f") {
         Polygon polygon;
         for (std::string corner; words >> corner;) {
           const long i = std::strtol(corner.c_str(), nullptr, 10);
-          polygon.push_back(i < 0 ? static_cast<long>(mesh_.vertices.size()) + i : i - 1);
+          polygon.push_back(i < 0 ? static_cast<long>(mesh_.vertices.size()) + i
+                                  : i - 1);
         }
         addPolygon(polygon);
       }
@@ -186,12 +186,10 @@ private:
         *binary = word == "binary_little_endian";
         if (!*binary && word != "ascii")
           fail("is a big-endian PLY, which is not supported");
-      }
-      else if (key == "element") {
+      } else if (key == "element") {
         elements.push_back({word, 0, {}});
         words >> elements.back().count;
-      }
-      else if (key == "property" && !elements.empty()) {
+      } else if (key == "property" && !elements.empty()) {
         Property p;
         p.type = word;
         if (word == "list")
@@ -238,13 +236,11 @@ private:
 
 } // namespace
 
-TriangleMesh
-readMesh(const std::string& path) {
+TriangleMesh readMesh(const std::string& path) {
   return Reader(path).read();
 }
 
-void
-writePly(const std::string& path, const TriangleMesh& mesh) {
+void writePly(const std::string& path, const TriangleMesh& mesh) {
   writeAtomically(path, [&](const std::string& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     out << "ply\nformat binary_little_endian 1.0\nelement vertex "

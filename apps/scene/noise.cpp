@@ -14,8 +14,7 @@ cellKey(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed) {
          (static_cast<std::uint64_t>(z) * 0xcb1ab31full << 23);
 }
 
-double
-latticeNoise(const Eigen::Vector3d& p, std::uint64_t seed) {
+double latticeNoise(const Eigen::Vector3d& p, std::uint64_t seed) {
   const Eigen::Vector3d base = p.array().floor();
   const Eigen::Vector3d f = p - base;
   const Eigen::Vector3d s = f.array().square() * (3.0 - 2.0 * f.array());
@@ -34,19 +33,17 @@ latticeNoise(const Eigen::Vector3d& p, std::uint64_t seed) {
 
 } // namespace
 
-double
-normalOf(std::uint64_t key) {
+double normalOf(std::uint64_t key) {
   constexpr double TWO_PI = 6.28318530717958647692;
   const double u = 1.0 - uniformOf(2 * key); // in (0, 1]
   return std::sqrt(-2.0 * std::log(u)) * std::cos(TWO_PI * uniformOf(2 * key + 1));
 }
 
-double
-solidNoise(const Eigen::Vector3d& p,
-           double coarse,
-           double fine,
-           double footprint,
-           std::uint64_t seed) {
+double solidNoise(const Eigen::Vector3d& p,
+                  double coarse,
+                  double fine,
+                  double footprint,
+                  std::uint64_t seed) {
   double sum = 0.0, power = 0.0, amplitude = 1.0;
   for (double wave = coarse; wave >= fine; wave *= 0.5) {
     power += amplitude * amplitude;

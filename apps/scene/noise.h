@@ -9,8 +9,7 @@ namespace pcl_sq::app {
 
 /** \brief Mixes bits (Steele, Lea & Flood 2014, SplitMix64's finaliser): the same
  * numbers on every machine and for any order of evaluation. */
-inline std::uint64_t
-mixBits(std::uint64_t x) {
+inline std::uint64_t mixBits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
@@ -18,8 +17,7 @@ mixBits(std::uint64_t x) {
 }
 
 /** \brief Uniform number in [0, 1) of a key. */
-inline double
-uniformOf(std::uint64_t key) {
+inline double uniformOf(std::uint64_t key) {
   return static_cast<double>(mixBits(key) >> 11) * 0x1.0p-53;
 }
 

@@ -13,12 +13,11 @@ using Profile = std::vector<Eigen::Vector2d>; // (radius, height)
 
 /** \brief Quarter of an ellipse from \a from to \a to, leaving along the tangent
  * \a direction. */
-void
-addArc(Profile& profile,
-       const Eigen::Vector2d& from,
-       const Eigen::Vector2d& to,
-       bool vertical_first,
-       int steps = 16) {
+void addArc(Profile& profile,
+            const Eigen::Vector2d& from,
+            const Eigen::Vector2d& to,
+            bool vertical_first,
+            int steps = 16) {
   for (int i = 1; i <= steps; ++i) {
     const double a = 0.5 * PI * i / steps;
     const double fast = std::sin(a), slow = 1.0 - std::cos(a);
@@ -30,8 +29,7 @@ addArc(Profile& profile,
 
 /** \brief Closed surface of revolution; the profile runs from the axis at the bottom,
  * outside upwards, to the axis again. */
-TriangleMesh
-revolve(const Profile& profile) {
+TriangleMesh revolve(const Profile& profile) {
   TriangleMesh mesh;
   const auto rings = static_cast<std::uint32_t>(profile.size());
   const auto vertex = [](std::uint32_t ring, std::uint32_t segment) {
@@ -73,7 +71,9 @@ tube(const std::vector<Eigen::Vector2d>& path, double in_plane, double across) {
       mesh.vertices.emplace_back(p.x(), across * std::sin(a), p.y());
     }
   }
-  const auto at = [](std::uint32_t i, std::uint32_t s) { return i * SIDES + s % SIDES; };
+  const auto at = [](std::uint32_t i, std::uint32_t s) {
+    return i * SIDES + s % SIDES;
+  };
   for (std::uint32_t s = 0; s < SIDES; ++s)
     for (std::uint32_t i = 0; i + 1 < count; ++i) {
       mesh.triangles.push_back({at(i, s), at(i, s + 1), at(i + 1, s + 1)});
@@ -91,16 +91,14 @@ tube(const std::vector<Eigen::Vector2d>& path, double in_plane, double across) {
   return mesh;
 }
 
-void
-append(TriangleMesh& mesh, const TriangleMesh& part) {
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
   for (const auto& t : part.triangles)
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }
 
-void
-center(TriangleMesh& mesh) {
+void center(TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& v : mesh.vertices)
     box.extend(v);
@@ -109,8 +107,7 @@ center(TriangleMesh& mesh) {
     v -= middle;
 }
 
-SceneObject
-fromProfile(const Profile& profile) {
+SceneObject fromProfile(const Profile& profile) {
   SceneObject object;
   object.mesh = revolve(profile);
   object.symmetry = Symmetry::REVOLUTION;
@@ -118,11 +115,10 @@ fromProfile(const Profile& profile) {
   return object;
 }
 
-SceneObject
-fromSuperquadric(const Eigen::Vector3d& sizes,
-                 double epsilon1,
-                 double epsilon2,
-                 Symmetry symmetry) {
+SceneObject fromSuperquadric(const Eigen::Vector3d& sizes,
+                             double epsilon1,
+                             double epsilon2,
+                             Symmetry symmetry) {
   Superquadric s;
   s.semi_axes = 0.5 * sizes;
   s.epsilon1 = epsilon1;
@@ -135,8 +131,7 @@ fromSuperquadric(const Eigen::Vector3d& sizes,
 }
 
 /** \brief The bottle of the paper's Table I: 53 mm wide, 350 mm high. */
-SceneObject
-bottle() {
+SceneObject bottle() {
   Profile p{{0.0, 0.0}, {0.0225, 0.0}};
   addArc(p, {0.0225, 0.0}, {0.0265, 0.004}, false);
   for (int i = 1; i <= 40; ++i)
@@ -154,8 +149,7 @@ bottle() {
   return object;
 }
 
-SceneObject
-cup() {
+SceneObject cup() {
   Profile p{{0.0, 0.0}, {0.035, 0.0}};
   addArc(p, {0.035, 0.0}, {0.04, 0.005}, false);
   for (int i = 1; i <= 24; ++i)
@@ -182,8 +176,7 @@ cup() {
   return object;
 }
 
-SceneObject
-bowl() {
+SceneObject bowl() {
   Profile p{{0.0, 0.0}, {0.03, 0.0}};
   for (int i = 1; i <= 40; ++i) {
     const double a = 0.5 * PI * i / 40;
@@ -204,8 +197,7 @@ bowl() {
 
 } // namespace
 
-const char*
-toString(Symmetry symmetry) {
+const char* toString(Symmetry symmetry) {
   switch (symmetry) {
   case Symmetry::BOX:
     return "box";
@@ -219,8 +211,7 @@ toString(Symmetry symmetry) {
   return "none";
 }
 
-bool
-symmetryFromString(const std::string& name, Symmetry* symmetry) {
+bool symmetryFromString(const std::string& name, Symmetry* symmetry) {
   for (const Symmetry s :
        {Symmetry::NONE, Symmetry::BOX, Symmetry::REVOLUTION, Symmetry::SPHERE})
     if (name == toString(s)) {
@@ -230,23 +221,20 @@ symmetryFromString(const std::string& name, Symmetry* symmetry) {
   return false;
 }
 
-Eigen::AlignedBox3d
-SceneObject::box() const {
+Eigen::AlignedBox3d SceneObject::box() const {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& v : mesh.vertices)
     box.extend(v);
   return box;
 }
 
-const std::vector<std::string>&
-objectNames() {
+const std::vector<std::string>& objectNames() {
   static const std::vector<std::string> names{
       "bottle", "cup", "book", "box", "can", "tomato", "bowl"};
   return names;
 }
 
-SceneObject
-makeObject(const std::string& name) {
+SceneObject makeObject(const std::string& name) {
   if (name == "bottle")
     return bottle();
   if (name == "cup")
@@ -259,19 +247,16 @@ makeObject(const std::string& name) {
     object.color = {0.55, 0.16, 0.18};
     object.distance = 1.1;
     object.yaw = 0.3;
-  }
-  else if (name == "box") {
+  } else if (name == "box") {
     object = fromSuperquadric({0.16, 0.06, 0.21}, 0.1, 0.1, Symmetry::BOX);
     object.color = {0.70, 0.50, 0.10};
     object.distance = 1.1;
     object.yaw = 0.5;
-  }
-  else if (name == "can") {
+  } else if (name == "can") {
     object = fromSuperquadric({0.066, 0.066, 0.115}, 0.1, 1.0, Symmetry::REVOLUTION);
     object.color = {0.18, 0.30, 0.62};
     object.distance = 0.8;
-  }
-  else { // tomato
+  } else { // tomato
     object = fromSuperquadric({0.075, 0.075, 0.062}, 0.9, 1.0, Symmetry::REVOLUTION);
     object.color = {0.70, 0.13, 0.08};
     object.distance = 0.7;
@@ -279,8 +264,7 @@ makeObject(const std::string& name) {
   return object;
 }
 
-SceneObject
-makeObject(TriangleMesh mesh, char up, double unit) {
+SceneObject makeObject(TriangleMesh mesh, char up, double unit) {
   for (Eigen::Vector3d& v : mesh.vertices) {
     // cyclic changes of the axes, so that left stays left
     if (up == 'y')

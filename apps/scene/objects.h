@@ -21,7 +21,7 @@ bool symmetryFromString(const std::string& name, Symmetry* symmetry);
 /** \brief An object in its own frame: z up, x its width, y its thickness; the origin is
  * the middle of its bounding box. */
 struct SceneObject {
-  TriangleMesh mesh;              ///< closed, seen from outside [m]
+  TriangleMesh mesh;               ///< closed, seen from outside [m]
   MultiSuperquadric superquadrics; ///< the same surface, where it is one; else empty
   Symmetry symmetry = Symmetry::NONE;
   Eigen::Vector3d color = {0.6, 0.6, 0.6}; ///< linear red, green, blue in [0, 1]

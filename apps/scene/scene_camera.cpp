@@ -7,24 +7,21 @@ namespace pcl_sq::app {
 namespace {
 
 /** \brief OpenCV's distortion of a normalised image point. */
-Eigen::Vector2d
-distort(const Eigen::Vector2d& p, const std::array<double, 5>& k) {
+Eigen::Vector2d distort(const Eigen::Vector2d& p, const std::array<double, 5>& k) {
   const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
   const double radial = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
   return {x * radial + 2.0 * k[2] * x * y + k[3] * (r2 + 2.0 * x * x),
           y * radial + k[2] * (r2 + 2.0 * y * y) + 2.0 * k[3] * x * y};
 }
 
-Eigen::Matrix3d
-smallRotation(double x, double y, double z) {
+Eigen::Matrix3d smallRotation(double x, double y, double z) {
   const Eigen::Vector3d w(x, y, z);
   return Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix();
 }
 
 } // namespace
 
-Eigen::Vector3d
-SceneCamera::ray(double u, double v) const {
+Eigen::Vector3d SceneCamera::ray(double u, double v) const {
   const Eigen::Vector2d seen((u - cx) / fx, (v - cy) / fy);
   Eigen::Vector2d p = seen;
   if (distortion != std::array<double, 5>{})
@@ -33,15 +30,13 @@ SceneCamera::ray(double u, double v) const {
   return rotation.transpose() * Eigen::Vector3d(p.x(), p.y(), 1.0);
 }
 
-Eigen::Vector2d
-SceneCamera::project(const Eigen::Vector3d& point) const {
+Eigen::Vector2d SceneCamera::project(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d c = rotation * (point - position);
   const Eigen::Vector2d p = distort(c.head<2>() / c.z(), distortion);
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
-StereoRig
-makeRig(int width, int height, double focal_length, double baseline) {
+StereoRig makeRig(int width, int height, double focal_length, double baseline) {
   StereoRig rig;
   rig.left.width = width;
   rig.left.height = height;
@@ -54,8 +49,7 @@ makeRig(int width, int height, double focal_length, double baseline) {
   return rig;
 }
 
-StereoRig
-distorted(const StereoRig& ideal) {
+StereoRig distorted(const StereoRig& ideal) {
   StereoRig rig = ideal;
   rig.left.fx *= 1.001;
   rig.left.fy *= 1.0;

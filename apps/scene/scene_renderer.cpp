@@ -101,8 +101,7 @@ private:
     }
     case Surface::TABLE: {
       // wood: long along x, short across
-      const Eigen::Vector3d stretched(
-          0.25 * s.place.x(), s.place.y(), s.place.z());
+      const Eigen::Vector3d stretched(0.25 * s.place.x(), s.place.y(), s.place.z());
       const double grain =
           solidNoise(stretched, 0.06, 0.004, footprint, scene_.seed * 64 + 16);
       const double speckle =
@@ -113,7 +112,7 @@ private:
     default: {
       const double n =
           solidNoise(s.place, 0.12, 0.003, footprint, scene_.seed * 64 + 48);
-      return Eigen::Vector3d(0.60, 0.61, 0.60) * std::max(0.1, 1.0 + 0.30 * c * n);
+      return Eigen::Vector3d(0.42, 0.43, 0.43) * std::max(0.1, 1.0 + 0.24 * c * n);
     }
     }
   }
@@ -124,24 +123,21 @@ private:
   double wall_ = 0.0;
 };
 
-std::uint8_t
-quantise(double linear, double noise) {
+std::uint8_t quantise(double linear, double noise) {
   const double grey = 255.0 * std::pow(std::clamp(linear, 0.0, 1.0), 1.0 / 2.2) + noise;
   return static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0)));
 }
 
-int
-threadCount(unsigned int threads) {
+int threadCount(unsigned int threads) {
   return threads == 0 ? omp_get_max_threads() : static_cast<int>(threads);
 }
 
 } // namespace
 
-Scene
-placeOnTable(const Eigen::AlignedBox3d& box,
-             const Eigen::Vector3d& center,
-             double yaw,
-             double pitch) {
+Scene placeOnTable(const Eigen::AlignedBox3d& box,
+                   const Eigen::Vector3d& center,
+                   double yaw,
+                   double pitch) {
   Scene scene;
   scene.table_normal = {0.0, -std::cos(pitch), -std::sin(pitch)};
   const Eigen::Vector3d right = Eigen::Vector3d::UnitX();
@@ -150,17 +146,15 @@ placeOnTable(const Eigen::AlignedBox3d& box,
   scene.rotation =
       upright * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   scene.translation = center - scene.rotation * box.center();
-  scene.table_offset =
-      -scene.table_normal.dot(scene.translation) - box.min().z();
+  scene.table_offset = -scene.table_normal.dot(scene.translation) - box.min().z();
   return scene;
 }
 
-RenderedImage
-render(const Scene& scene,
-       const MeshBvh& object,
-       const SceneCamera& camera,
-       std::uint64_t view,
-       unsigned int threads) {
+RenderedImage render(const Scene& scene,
+                     const MeshBvh& object,
+                     const SceneCamera& camera,
+                     std::uint64_t view,
+                     unsigned int threads) {
   const Caster caster(scene, object);
   const int n = std::max(1, scene.supersampling);
   const double pixel_angle = 1.0 / camera.fx / n;
@@ -183,7 +177,8 @@ render(const Scene& scene,
             0.06 * Eigen::Vector3d(uniformOf(mixBits(key + 8) + sample) - 0.5,
                                    uniformOf(mixBits(key + 9) + sample) - 0.5,
                                    uniformOf(mixBits(key + 10) + sample) - 0.5);
-        sum += caster.shade(caster.look(camera.position, ray), ray, pixel_angle, jitter);
+        sum +=
+            caster.shade(caster.look(camera.position, ray), ray, pixel_angle, jitter);
       }
       sum /= n * n;
       for (int c = 0; c < 3; ++c)
@@ -193,11 +188,10 @@ render(const Scene& scene,
   return image;
 }
 
-RenderedTruth
-renderTruth(const Scene& scene,
-            const MeshBvh& object,
-            const SceneCamera& camera,
-            unsigned int threads) {
+RenderedTruth renderTruth(const Scene& scene,
+                          const MeshBvh& object,
+                          const SceneCamera& camera,
+                          unsigned int threads) {
   const Caster caster(scene, object);
   RenderedTruth truth;
   truth.width = camera.width;

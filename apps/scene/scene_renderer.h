@@ -18,10 +18,10 @@ struct Scene {
   Eigen::Vector3d color = {0.6, 0.6, 0.6};                ///< of the object
   Eigen::Vector3d table_normal = {0, -1, 0};              ///< upwards, unit
   double table_offset = 0.0;                              ///< n.p + d = 0 on the table
-  double wall_distance = 0.9;  ///< from the object along the table [m]
-  double contrast = 1.0;       ///< of all textures, [0, 2]
-  double noise_sigma = 2.0;    ///< of the sensor [grey levels]
-  int supersampling = 2;       ///< rays per pixel and direction
+  double wall_distance = 0.9; ///< from the object along the table [m]
+  double contrast = 1.0;      ///< of all textures, [0, 2]
+  double noise_sigma = 2.0;   ///< of the sensor [grey levels]
+  int supersampling = 2;      ///< rays per pixel and direction
   std::uint64_t seed = 1;
 };
 

@@ -11,13 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json
-toJson(const Eigen::Vector3d& v) {
+Json toJson(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
-Json
-rows(const Eigen::Matrix3d& m) {
+Json rows(const Eigen::Matrix3d& m) {
   Json result = Json::array();
   for (int i = 0; i < 3; ++i)
     result.push_back(toJson(Eigen::Vector3d(m.row(i))));
@@ -25,8 +23,7 @@ rows(const Eigen::Matrix3d& m) {
 }
 
 template <int N>
-Eigen::Matrix<double, N, 1>
-vectorOf(const Json& json) {
+Eigen::Matrix<double, N, 1> vectorOf(const Json& json) {
   if (json.size() != static_cast<std::size_t>(N))
     throw Failure("a vector of the truth file has the wrong length.");
   Eigen::Matrix<double, N, 1> v;
@@ -35,8 +32,7 @@ vectorOf(const Json& json) {
   return v;
 }
 
-Eigen::Matrix3d
-matrixOf(const Json& json) {
+Eigen::Matrix3d matrixOf(const Json& json) {
   Eigen::Matrix3d m;
   for (int i = 0; i < 3; ++i)
     m.row(i) = vectorOf<3>(json.at(static_cast<std::size_t>(i))).transpose();
@@ -45,8 +41,7 @@ matrixOf(const Json& json) {
 
 } // namespace
 
-std::string
-toJson(const SceneTruth& t) {
+std::string toJson(const SceneTruth& t) {
   Json parts = Json::array();
   for (const Superquadric& s : t.parts.parts)
     parts.push_back({{"semi_axes", toJson(s.semi_axes)},
@@ -67,7 +62,8 @@ toJson(const SceneTruth& t) {
         {"cx", t.cx},
         {"cy", t.cy},
         {"baseline", t.baseline}}},
-      {"pose", {{"rotation", rows(t.rotation)}, {"translation", toJson(t.translation)}}},
+      {"pose",
+       {{"rotation", rows(t.rotation)}, {"translation", toJson(t.translation)}}},
       {"size",
        {{"width", t.size.x()}, {"height", t.size.z()}, {"thickness", t.size.y()}}},
       {"symmetry", toString(t.symmetry)},
@@ -79,8 +75,7 @@ toJson(const SceneTruth& t) {
   return json.dump(2) + "\n";
 }
 
-SceneTruth
-readTruth(const std::string& path) {
+SceneTruth readTruth(const std::string& path) {
   try {
     const Json json = Json::parse(readFile(path));
     if (json.at("schema") != "pcl_sq/truth" || json.at("version") != 1)

@@ -13,8 +13,8 @@ struct SceneTruth {
   std::uint64_t seed = 0; ///< of the textures and the noise
   int width = 0, height = 0;
   double focal_length = 0.0, cx = 0.0, cy = 0.0, baseline = 0.0; ///< [px], [m]
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< object to camera
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< object to camera [m]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();        ///< object to camera
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero(); ///< object to camera [m]
   Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< along the object's x, y, z [m]
   Symmetry symmetry = Symmetry::NONE;
   std::string mesh;        ///< file beside the truth, in the object's frame

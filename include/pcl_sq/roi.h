@@ -11,7 +11,8 @@ struct PixelRect {
   int width = 0, height = 0; ///< [px]
   bool empty() const { return width <= 0 || height <= 0; }
   bool contains(int column, int row) const {
-    return column >= x && row >= y && column - x < width && row - y < height;
+    return column >= x && row >= y && static_cast<long long>(column) - x < width &&
+           static_cast<long long>(row) - y < height;
   }
   bool operator==(const PixelRect& o) const {
     return x == o.x && y == o.y && width == o.width && height == o.height;

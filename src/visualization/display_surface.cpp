@@ -51,11 +51,15 @@ std::vector<ProfilePoint> quarterProfile(double a, double b, double e, int steps
     measure.push_back(measure.back() + arc + turn);
   }
   std::vector<ProfilePoint> profile;
+  std::size_t last = candidates.size();
   for (int i = 0; i <= steps; ++i) {
     const double wanted = measure.back() * i / steps;
     const auto at = std::lower_bound(measure.begin(), measure.end(), wanted);
-    profile.push_back(
-        candidates[std::min<std::size_t>(at - measure.begin(), candidates.size() - 1)]);
+    const auto chosen =
+        std::min<std::size_t>(at - measure.begin(), candidates.size() - 1);
+    if (chosen != last) // a turn within no length at all takes one point
+      profile.push_back(candidates[chosen]);
+    last = chosen;
   }
   // the corner itself, or its edge line would run beside it
   const double corner = std::sqrt(0.5);

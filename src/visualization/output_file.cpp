@@ -20,8 +20,11 @@ OutputFile::OutputFile(const std::string& path, const std::string& who)
   static std::atomic<unsigned> counter{0};
   if (std::filesystem::is_directory(std::filesystem::path(path)))
     throw Exception("[" + who + "] " + path + " is a folder; name a file in it.");
-  temporary_ =
-      path + ".tmp" + std::to_string(getpid()) + "_" + std::to_string(counter++);
+  // the ending stays: VTK's PLY writer appends its own otherwise
+  const std::filesystem::path target(path);
+  temporary_ = target.parent_path() /
+               ("." + target.stem().string() + "." + std::to_string(getpid()) + "_" +
+                std::to_string(counter++) + target.extension().string());
   const int file =
       open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0)

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model against what is known of the object.
+#include "app.h"
+#include "cloud_io.h"
+#include "evaluation.h"
+#include "files.h"
+#include "mesh_reader.h"
+#include "pcl_sq/model_io.h"
+#include "pose_file.h"
+#include "truth.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+using namespace pcl_sq;
+using namespace pcl_sq::app;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string model, truth, mesh, pose, cloud, output;
+  std::string symmetry = "none", format = "json";
+  std::size_t samples = 60000;
+  unsigned int threads = 0;
+};
+
+void addOptions(CLI::App& cli, Options& o) {
+  cli.add_option("model", o.model, "Model to judge (JSON)")
+      ->required()
+      ->type_name("FILE");
+  auto* truth = cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")
+                    ->type_name("FILE");
+  auto* mesh =
+      cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
+          ->type_name("FILE");
+  truth->excludes(mesh);
+  cli.add_option("--pose",
+                 o.pose,
+                 "Mesh to model's frame: 16 numbers (rows, commas between), a file of "
+                 "them, or FILE.yml:NAME of an OpenCV file")
+      ->needs(mesh);
+  cli.add_option("--symmetry", o.symmetry, "Of the mesh; revolution is about its z")
+      ->check(CLI::IsMember({"none", "box", "revolution", "sphere"}))
+      ->needs(mesh)
+      ->capture_default_str();
+  cli.add_option("--cloud", o.cloud, "Measured points of the object")
+      ->type_name("FILE");
+  cli.add_option("--samples", o.samples, "Points for each of volume and surfaces")
+      ->check(CLI::Range(1000, 10000000))
+      ->capture_default_str();
+  cli.add_option("--format", o.format, "What is printed")
+      ->check(CLI::IsMember({"json", "table"}))
+      ->capture_default_str();
+  cli.add_option("-o,--output", o.output, "Also write the JSON to a file");
+  cli.add_option("--threads", o.threads, "0 = all cores")->check(CLI::Range(0, 1024));
+}
+
+ReferenceShape loadShape(const Options& o) {
+  ReferenceShape shape;
+  if (o.truth.empty()) {
+    shape.mesh = readMesh(o.mesh);
+    if (!o.pose.empty())
+      readPose(o.pose, shape.rotation, shape.translation);
+    if (!symmetryFromString(o.symmetry, &shape.symmetry))
+      throw UsageError("unknown symmetry.");
+    return shape;
+  }
+  const SceneTruth truth = readTruth(o.truth);
+  const auto folder = std::filesystem::path(o.truth).parent_path();
+  shape.mesh = readMesh((folder / truth.mesh).string());
+  shape.rotation = truth.rotation;
+  shape.translation = truth.translation;
+  shape.symmetry = truth.symmetry;
+  return shape;
+}
+
+Json toJson(const DistanceFigures& d) {
+  return {{"mean", d.mean}, {"rms", d.rms}, {"max", d.max}};
+}
+
+Json toJson(const ShapeFigures& f) {
+  const auto size = [](const Eigen::Vector3d& s) {
+    return Json{{"width", s.x()}, {"height", s.z()}, {"thickness", s.y()}};
+  };
+  const Eigen::Vector3d& c = f.center_error;
+  return {{"size", size(f.model_size)},
+          {"true_size", size(f.true_size)},
+          {"size_error", size(f.model_size - f.true_size)},
+          {"center_error", Json::array({c.x(), c.y(), c.z()})},
+          {"center_distance", c.norm()},
+          {"axis_error_deg", f.axis_error_deg},
+          {"iou", f.iou},
+          {"volume", f.model_volume},
+          {"true_volume", f.true_volume},
+          {"chamfer", f.chamfer()},
+          {"model_to_truth", toJson(f.model_to_truth)},
+          {"truth_to_model", toJson(f.truth_to_model)}};
+}
+
+Eigen::Matrix3Xd finitePoints(const LoadedCloud& input) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(input.finite_points));
+  Eigen::Index n = 0;
+  for (const auto& p : *input.cloud)
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+      points.col(n++) = p.getVector3fMap().cast<double>();
+  points.conservativeResize(Eigen::NoChange, n);
+  return points;
+}
+
+void printTable(const Json& json) {
+  const auto line = [](const char* name, double value, const char* unit) {
+    std::printf("%-26s %12.4f %s\n", name, value, unit);
+  };
+  std::printf("%-26s %12d\n", "superquadrics", json["superquadrics"].get<int>());
+  if (json.contains("shape")) {
+    const Json& s = json["shape"];
+    for (const char* side : {"width", "height", "thickness"})
+      std::printf("%-26s %12.2f mm   true %8.2f   error %+7.2f\n",
+                  side,
+                  1e3 * s["size"][side].get<double>(),
+                  1e3 * s["true_size"][side].get<double>(),
+                  1e3 * s["size_error"][side].get<double>());
+    for (int k = 0; k < 3; ++k)
+      line(k == 0   ? "centre error x"
+           : k == 1 ? "centre error y"
+                    : "centre error z",
+           1e3 * s["center_error"][static_cast<std::size_t>(k)].get<double>(),
+           "mm");
+    line("axis error", s["axis_error_deg"].get<double>(), "deg");
+    line("IoU of the volumes", s["iou"].get<double>(), "");
+    line("model to truth, mean", 1e3 * s["model_to_truth"]["mean"].get<double>(), "mm");
+    line("truth to model, mean", 1e3 * s["truth_to_model"]["mean"].get<double>(), "mm");
+    line("chamfer", 1e3 * s["chamfer"].get<double>(), "mm");
+  }
+  if (json.contains("cloud"))
+    line("cloud to model, rms",
+         1e3 * json["cloud"]["distance"]["rms"].get<double>(),
+         "mm");
+  line("D (Eq. 7, mm)", json["distortion_mm"].get<double>(), "");
+}
+
+int work(const Options& o) {
+  if (o.truth.empty() && o.mesh.empty() && o.cloud.empty())
+    throw UsageError("give --truth, --mesh or --cloud to judge the model against.");
+  if (!o.output.empty())
+    checkWritable(o.output);
+  ModelFile file;
+  std::string why;
+  if (!fromJson(readFile(o.model), file, &why))
+    throw Failure("'" + o.model + "' is not a model: " + why);
+  if (file.model.empty())
+    throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
+  Json json = {{"schema", "pcl_sq/evaluation"},
+               {"version", 1},
+               {"unit", "m"},
+               {"model", o.model},
+               {"superquadrics", file.model.size()}};
+  // without a cloud, D as the fit reported it: metres^1.5 to millimetres^1.5
+  json["distortion_mm"] = file.distortion * std::pow(1e3, 1.5);
+  if (!o.truth.empty() || !o.mesh.empty())
+    json["shape"] =
+        toJson(evaluateShape(file.model, loadShape(o), o.samples, o.threads));
+  if (!o.cloud.empty()) {
+    const Eigen::Matrix3Xd points = finitePoints(loadCloud(o.cloud));
+    if (points.cols() == 0)
+      throw Failure("'" + o.cloud + "' holds no finite point.");
+    const CloudFigures c = evaluateCloud(file.model, points, o.threads);
+    json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
+    json["distortion_mm"] = c.distortion_mm;
+  }
+  if (!o.output.empty())
+    writeTextFile(o.output, json.dump(2) + "\n");
+  if (o.format == "json")
+    std::cout << json.dump(2) << '\n';
+  else
+    printTable(json);
+  return DONE;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return run(
+      argc,
+      argv,
+      "pcl_sq_evaluate",
+      "Judges a model: sizes, place, overlap and distances against the truth.",
+      "  pcl_sq_evaluate model.json --truth bottle/truth.json --format table\n"
+      "  pcl_sq_evaluate model.json --mesh mug.stl --pose gt.yml:T_mesh_to_rectleft\n"
+      "  pcl_sq_evaluate model.json --cloud object.pcd\n",
+      [&](CLI::App& cli) { addOptions(cli, options); },
+      [&] { return work(options); });
+}

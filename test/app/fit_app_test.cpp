@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bottle_view.h"
+#include "program.h"
+
+#include "pcl_sq/model_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+namespace {
+
+/** \brief The bottle as an ASCII PCD. */
+std::string bottlePcd(std::size_t points = 4000) {
+  const Eigen::Matrix3Xd cloud = visiblePoints(bottle(), points, 0.0005);
+  std::ostringstream text;
+  const std::string n = std::to_string(cloud.cols());
+  text << "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " << n
+       << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << n << "\nDATA ascii\n"
+       << cloud.transpose() << "\n";
+  return text.str();
+}
+
+std::string pcdOf(const std::vector<Eigen::Vector3f>& points) {
+  std::ostringstream text;
+  text << "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
+       << points.size() << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+       << points.size() << "\nDATA ascii\n";
+  for (const Eigen::Vector3f& p : points)
+    text << p.x() << " " << p.y() << " " << p.z() << "\n";
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+/** \brief The program refuses: exit code, one sentence, nothing written. */
+void expectRefusal(const Folder& folder,
+                   std::vector<std::string> arguments,
+                   int code = 1) {
+  const std::size_t files = folder.files();
+  arguments.insert(arguments.end(), {"-o", folder / "model.json"});
+  const ProgramRun run = runProgram("pcl_sq_fit", arguments);
+  std::string line;
+  for (const std::string& argument : arguments)
+    line += argument + " ";
+  EXPECT_EQ(run.code, code) << line << run.err;
+  EXPECT_EQ(run.sentences(), 1) << line << run.err;
+  EXPECT_TRUE(run.out.empty()) << line << run.out;
+  EXPECT_EQ(folder.files(), files) << line << "something was left behind";
+}
+
+} // namespace
+
+TEST(FitApp, WritesAModelThatReadsBackWithItsTimes) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", folder / "model.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(run.err.empty()) << run.err;
+  EXPECT_NE(run.out.find("superquadrics"), std::string::npos);
+  ModelFile file;
+  std::string why;
+  ASSERT_TRUE(fromJson(slurp(folder / "model.json"), file, &why)) << why;
+  EXPECT_EQ(file.model.size(), 2u);
+  EXPECT_EQ(file.input_path, cloud);
+  EXPECT_GT(file.distortion, 0.0);
+  std::vector<std::string> stages;
+  for (const auto& [stage, ms] : file.timings_ms)
+    stages.push_back(stage);
+  for (const char* stage : {"load", "fit", "total"})
+    EXPECT_NE(std::find(stages.begin(), stages.end(), stage), stages.end()) << stage;
+}
+
+TEST(FitApp, SameModelForAnyNumberOfThreadsAndFileFormat) {
+  const Folder folder;
+  const std::string pcd = folder.write("bottle.pcd", bottlePcd());
+  const std::string body = bottlePcd().substr(bottlePcd().find("ascii\n") + 6);
+  const std::string xyz = folder.write("bottle.xyz", body);
+  const auto model = [&](const std::string& cloud, const std::string& threads) {
+    const ProgramRun run = runProgram(
+        "pcl_sq_fit", {cloud, "--threads", threads, "-q", "-o", folder / "m.json"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(run.out.empty());
+    ModelFile file, bare;
+    EXPECT_TRUE(fromJson(slurp(folder / "m.json"), file));
+    bare.model = file.model;
+    return toJson(bare);
+  };
+  const std::string one = model(pcd, "1");
+  EXPECT_EQ(model(pcd, "2"), one);
+  EXPECT_EQ(model(xyz, "0"), one);
+}
+
+TEST(FitApp, ConfigFileGivesDefaultsAndTheCommandLineWins) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  const std::string config =
+      folder.write("fit.toml", "decomposition = \"none\"\nthreads = 1\n");
+  const auto parts = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {cloud, "--config", config, "-o", folder / "m.json"});
+    EXPECT_EQ(runProgram("pcl_sq_fit", more).code, 0);
+    ModelFile file;
+    EXPECT_TRUE(fromJson(slurp(folder / "m.json"), file));
+    return file.model.size();
+  };
+  EXPECT_EQ(parts({}), 1u);
+  EXPECT_EQ(parts({"--decomposition", "prisms"}), 2u);
+  expectRefusal(
+      folder, {cloud, "--config", folder.write("bad.toml", "colour = 3\n")}, 2);
+}
+
+TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
+  const Folder folder;
+  const std::string first = folder.write("first.pcd", bottlePcd());
+  const std::string last = folder.write("last.pcd", bottlePcd(2000));
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {first, folder / "missing.pcd", last, "--jsonl"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.sentences(), 1) << run.err;
+  std::istringstream lines(run.out);
+  std::string line;
+  for (const std::string& path : {first, last}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    ModelFile file;
+    std::string why;
+    ASSERT_TRUE(fromJson(line, file, &why)) << why;
+    EXPECT_EQ(file.input_path, path);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+  EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
+}
+
+TEST(FitApp, BadCommandLinesEndWithTwo) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  expectRefusal(folder, {}, 2);
+  expectRefusal(folder, {cloud, "--no-such-option"}, 2);
+  expectRefusal(folder, {cloud, "--decomposition", "cubes"}, 2);
+  expectRefusal(folder, {cloud, "--roi", "1,2,3"}, 2);
+  expectRefusal(folder, {cloud, "--roi", "1,2,0,5"}, 2);
+  expectRefusal(folder, {cloud, "--box", "1,1,1,0,0,0"}, 2);
+  expectRefusal(folder, {cloud, "--box", "a,b,c,d,e,f"}, 2);
+  expectRefusal(folder, {cloud, "--grasp-threshold", "-1"}, 2);
+  expectRefusal(folder, {cloud, "--threads", "-3"}, 2);
+  expectRefusal(folder, {cloud, "--voxel-percent", "0,5,5"}, 2);
+  EXPECT_EQ(runProgram("pcl_sq_fit", {"--help"}).code, 0);
+  EXPECT_NE(runProgram("pcl_sq_fit", {"--help"}).out.find("Examples"),
+            std::string::npos);
+  EXPECT_NE(runProgram("pcl_sq_fit", {"--version"}).out.find("0."), std::string::npos);
+}
+
+TEST(FitApp, FilesThatAreNoCloudsAreRefusedInOneSentence) {
+  const Folder folder;
+  const std::string good = bottlePcd(500);
+  const auto refuse = [&](const std::string& name, const std::string& bytes) {
+    expectRefusal(folder, {folder.write(name, bytes)});
+  };
+  expectRefusal(folder, {folder / "missing.pcd"});
+  expectRefusal(folder, {folder / ""});
+  refuse("cloud.jpg", good);
+  for (const std::string extension : {".pcd", ".ply", ".obj", ".xyz"}) {
+    refuse("empty" + extension, "");
+    std::string garbage(5000, '\0');
+    for (std::size_t i = 0; i < garbage.size(); ++i)
+      garbage[i] = char(i * 7919 >> 3);
+    refuse("garbage" + extension, garbage);
+  }
+  const std::string header = good.substr(0, good.find("DATA"));
+  refuse("truncated.pcd", good.substr(0, good.size() / 2));
+  refuse("no_data.pcd", header);
+  refuse("binary.pcd", header + "DATA binary\n" + std::string(100, 'x'));
+  refuse("lzf.pcd", header + "DATA binary_compressed\n" + std::string(100, 'x'));
+  refuse("lzf_tiny.pcd", header + "DATA binary_compressed\n");
+  refuse("kind.pcd", header + "DATA morse\n");
+  std::string lie = replaced(good, "HEIGHT 1\n", "HEIGHT 1000000000\n");
+  refuse("height.pcd", lie);
+  lie = replaced(lie, "POINTS", "#");
+  refuse("height_alone.pcd", lie);
+  refuse("binary_huge.pcd",
+         "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
+         "1000000\nHEIGHT 1000000\nPOINTS 1000000000000\nDATA binary\n1234");
+  refuse("count.pcd", replaced(good, "COUNT 1 1 1", "COUNT 1 1 99999999"));
+  refuse("fields.pcd", replaced(good, "FIELDS x y z", "FIELDS x y q"));
+  refuse("huge.ply",
+         "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nproperty "
+         "float x\nproperty float y\nproperty float z\nend_header\n1234");
+  refuse("short.ply",
+         "ply\nformat ascii 1.0\nelement vertex 4000\nproperty float x\nproperty float "
+         "y\nproperty float z\nend_header\n1 2 3\n");
+  refuse("no_vertices.ply", "ply\nformat ascii 1.0\nend_header\n");
+  refuse("words.xyz", "1 2 3\nfour five six\n");
+}
+
+TEST(FitApp, CloudsWithoutAnObjectAreRefusedInOneSentence) {
+  const Folder folder;
+  const float nan = std::nanf("");
+  const auto refuse = [&](const std::vector<Eigen::Vector3f>& points) {
+    const std::string cloud = folder.write("cloud.pcd", pcdOf(points));
+    for (const std::string decomposition : {"none", "prisms"})
+      for (const std::string fit : {"paper", "full"})
+        expectRefusal(folder, {cloud, "--decomposition", decomposition, "--fit", fit});
+    expectRefusal(folder, {cloud, "--remove-plane"});
+  };
+  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(nan, nan, nan)));
+  for (int n = 1; n <= 3; ++n)
+    refuse(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
+  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
+  std::vector<Eigen::Vector3f> line, plane, far;
+  for (int i = 0; i < 900; ++i) {
+    line.push_back(Eigen::Vector3f(0.001f, 0.002f, 0.003f) * float(i));
+    plane.emplace_back(0.01f * float(i % 30), 0.01f * float(i / 30), 1.0f);
+    far.emplace_back(
+        1e30f * float(i % 7), 1e30f * float(i % 11), -1e30f * float(i % 13));
+  }
+  refuse(line);
+  refuse(plane);
+  const std::string cloud = folder.write("far.pcd", pcdOf(far));
+  expectRefusal(folder, {cloud});
+}
+
+TEST(FitApp, RegionsThatMissAndGridsThatAreTooFineAreRefused) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  expectRefusal(folder, {cloud, "--box", "5,5,5,6,6,6"});
+  expectRefusal(folder, {cloud, "--roi", "1,2,3,4"}); // not organized
+  expectRefusal(folder, {cloud, "--divisions", "10000,10000,10000"});
+}
+
+TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  const std::string nowhere = folder / "missing/model.json";
+  const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", nowhere});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.sentences(), 1) << run.err;
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(FitApp, TooLittleMemoryIsAnErrorAndNotAKill) {
+  const Folder folder;
+  const std::string cloud = folder.write("bottle.pcd", bottlePcd());
+  const ProgramRun run =
+      runProgram("pcl_sq_fit",
+                 {cloud, "--threads", "1", "--divisions", "250,250,250"},
+                 "ulimit -v 600000;");
+  EXPECT_TRUE(run.code == 0 || run.code == 1) << run.code << run.err;
+  std::string big = "0 0 0\n";
+  while (big.size() < (48u << 20))
+    big += big;
+  const ProgramRun full =
+      runProgram("pcl_sq_fit", {folder.write("big.xyz", big)}, "ulimit -v 500000;");
+  EXPECT_EQ(full.code, 1) << full.err;
+  EXPECT_EQ(full.sentences(), 1) << full.err;
+}
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "folder.h"
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <sys/wait.h>
+
+namespace pcl_sq::test {
+
+/** \brief How a program ended and what it said. */
+struct ProgramRun {
+  int code = -1; ///< exit code; 128 + signal after a crash
+  std::string out, err;
+  /** \brief Lines on stderr. */
+  int sentences() const {
+    int lines = 0;
+    for (const char c : err)
+      lines += c == '\n';
+    return lines;
+  }
+};
+
+/** \brief Runs one of our programs.
+ * \param[in] before shell text in front of it, for example "ulimit -v 500000;" */
+inline ProgramRun runProgram(const std::string& name,
+                      const std::vector<std::string>& arguments,
+                      const std::string& before = "") {
+  const Folder folder;
+  std::string command = before + " '" PCL_SQ_BIN_DIR "/" + name + "'";
+  for (const std::string& argument : arguments)
+    command += " '" + argument + "'";
+  command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
+  const int status = std::system(command.c_str());
+  ProgramRun run;
+  run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  run.out = slurp(folder / "out");
+  run.err = slurp(folder / "err");
+  return run;
+}
+
+} // namespace pcl_sq::test
