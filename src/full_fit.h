@@ -2,48 +2,59 @@
 // Private. The stages of the full fit, all in the frame of the points.
 #pragma once
 
-#include "levenberg_marquardt.h"
+#include "mixture.h"
 
 namespace pcl_sq::detail {
-
-/** \brief Gaussian on the surface and uniform outliers in the region of the points. */
-struct Mixture {
-  double sigma = 0.1;         ///< of the Gaussian
-  double outlier_share = 0.1; ///< expected
-  double volume = 1.0;        ///< of the region
-
-  /** \brief The kernels' c for a surface of this area. */
-  double outlier(double area) const;
-};
 
 /** \brief A superquadric with its mixture and how well both explain the points. */
 struct Candidate {
   Superquadric model;
   Mixture mixture;
-  double nll = 0.0; ///< negative log-likelihood per point
+  double nll = 0.0; ///< negative log-likelihood per point, cf. Mixture
 };
 
-/** \brief Settings of the stages that come from the options and the cloud. */
+/** \brief Settings of the stages, from the options and the cloud. */
 struct FitSetting {
-  FitOptions options;
-  double volume = 1.0;      ///< of the points' region
-  double min_sigma = 1e-6;  ///< noise is never believed to be smaller
-  double fixed_sigma = 0.0; ///< 0: estimated
-  double max_axis = 1e3;
-  Contributor contributor;
-  int iterations = 0; ///< spent so far
+  LmOptions lm; ///< bounds, free directions, contributor
+  MixtureLimits limits;
+  bool size_prior = true;
+  int max_iterations = 60;
+  int iterations = 0; ///< counted by the stages
 };
 
-/** \brief Starts from the moments of the dense points. */
-std::vector<Superquadric> startShapes(const UnitPoints& dense);
+/** \brief Fits of one start; the mixture is estimated anew after each round.
+ * \param[in] slowest factor by which sigma may shrink in a round at most: the basin
+ * narrows with it */
+Candidate anneal(const UnitPoints& points,
+                 const Candidate& start,
+                 kernels::Residual residual,
+                 int rounds,
+                 FitSetting& setting);
 
-/** \brief Multi-start search. */
-Candidate search(const UnitPoints& points, FitSetting& setting);
+/** \brief The best of many starts on a subset of the points. \param[in] thorough more
+ * starts, more of them carried on */
+Candidate search(const UnitPoints& points, bool thorough, FitSetting& setting);
 
-/** \brief Foot-point refinement with estimation of the mixture. */
+/** \brief Fit to all points by the distance to the foot point, to convergence of model
+ * and mixture. \param[out] last of the Levenberg-Marquardt runs */
 Candidate refine(const UnitPoints& points,
                  const Candidate& start,
                  FitSetting& setting,
                  LmResult& last);
+
+/** \brief Whether a fit is likely to be a wrong minimum: its residuals are systematic,
+ * or it takes a part of the surface for outliers. */
+bool doubtful(const UnitPoints& points, const Candidate& candidate);
+
+/** \brief A further cost for a cloud's frame, see Contributor. */
+using ContributorFactory = std::function<Contributor(const UnitFrame&)>;
+
+/** \brief fitSuperquadric() with a further cost (in squared lengths of the unit frame,
+ * beside the points' squared distances). \param[in] initial nullptr: search
+ * \param[in] factory may be empty */
+FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                   const Superquadric* initial,
+                   const FitOptions& options,
+                   const ContributorFactory& factory);
 
 } // namespace pcl_sq::detail

@@ -189,6 +189,12 @@ LmResult levenbergMarquardt(const UnitPoints& points,
     ++r.iterations;
     const bool solved = solve(jtj, jtr, n, frozen, damping, step);
     if (solved) {
+      // what the model itself promises; not worth an evaluation once it is nothing
+      const double promised = -jtr.head(n).dot(step.head(n));
+      if (damping <= 1.0 && promised <= o.cost_tolerance * r.equations.points_cost) {
+        r.termination = Termination::COST_CHANGE_TOO_SMALL;
+        break;
+      }
       Vector11 full = basis * step.head(n);
       limit(full, r.model);
       const Superquadric candidate = moved(r.model, full, o);
@@ -217,6 +223,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
       break;
     }
   }
+  r.damping = std::clamp(damping, MIN_DAMPING, o.initial_damping);
   r.model.rotation =
       Eigen::Quaterniond(r.model.rotation).normalized().toRotationMatrix();
   return r;

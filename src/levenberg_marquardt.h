@@ -20,8 +20,8 @@ struct NormalEquations {
   Vector11 jtr = Vector11::Zero(); ///< half the cost's gradient
   double cost = 0.0;
   double points_cost = 0.0; ///< the points' part of the cost
-  double share = 0.0;    ///< expected number of inliers
-  double weighted = 0.0; ///< sum of share r^2
+  double share = 0.0;       ///< expected number of inliers
+  double weighted = 0.0;    ///< sum of share r^2
 
   /** \brief Adds one residual with its derivatives. */
   void addRow(const Vector11& derivatives, double residual) {
@@ -63,6 +63,7 @@ struct LmOptions {
 struct LmResult {
   Superquadric model;
   NormalEquations equations; ///< at the model
+  double damping = 0.0;      ///< with which a further fit may go on
   int iterations = 0;
   Termination termination = Termination::NOT_RUN;
 };

@@ -5,7 +5,8 @@
 
 namespace pcl_sq::detail {
 
-/** \brief ln of the surface's area with its derivatives for ln a1, ln a2, ln a3, e1, e2.
+/** \brief ln of the surface's area with its derivatives for ln a1, ln a2, ln a3, e1,
+ * e2.
  */
 struct LogArea {
   double value = 0.0;

@@ -42,6 +42,16 @@ void UnitPoints::setPrecision(const std::vector<float>& precision) {
     precision_.resize(padded(count_), 0.0F);
 }
 
+double UnitPoints::boxVolume() const {
+  double volume = 1.0;
+  for (const std::vector<float>* v : {&x_, &y_, &z_}) {
+    const auto ends = std::minmax_element(
+        v->begin(), v->begin() + static_cast<std::ptrdiff_t>(count_));
+    volume *= std::max(double(*ends.second) - double(*ends.first), 0.1);
+  }
+  return volume;
+}
+
 bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                     UnitFrame& frame) {
   const Moments moments = momentsOf(points);

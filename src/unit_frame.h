@@ -48,6 +48,8 @@ public:
   /** \brief Factors of the squared residuals, one per point; empty: all one. */
   void setPrecision(const std::vector<float>& precision);
   std::size_t size() const { return count_; }
+  /** \brief Volume of the box along the axes, no side taken for less than 0.1. */
+  double boxVolume() const;
   Eigen::Vector3f operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   kernels::Points view() const {
     return {x_.data(),

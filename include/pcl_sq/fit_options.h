@@ -3,9 +3,6 @@
 
 #include "pcl_sq/exports.h"
 
-#include <Eigen/Core>
-
-#include <optional>
 #include <string>
 
 namespace pcl_sq {
@@ -75,8 +72,6 @@ struct PCL_SQ_EXPORTS FitOptions {
   /** \brief Parameters held at the start's value (needs a start): FixedParameters. */
   unsigned fixed = FIX_NOTHING;
   int max_iterations = 60; ///< of the last stage's Levenberg-Marquardt, [1, 1000]
-  /** \brief Camera's position in the cloud's frame [m], where it is known. */
-  std::optional<Eigen::Vector3d> viewpoint;
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */

@@ -86,4 +86,13 @@ fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                 const Superquadric& initial,
                 const FitOptions& options = {});
 
+/** \brief Superquadric::footPointDistance() of many points at once, to seven digits of
+ * the superquadric's size [m]; infinite where a coordinate is not finite. */
+PCL_SQ_EXPORTS Eigen::VectorXd
+surfaceDistances(const Superquadric& superquadric,
+                 const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
+/** \brief Whether the finite points lie neither in one place nor on a line or plane. */
+PCL_SQ_EXPORTS bool spansVolume(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
 } // namespace pcl_sq

@@ -79,12 +79,12 @@ struct Gauge {
 
 /** \brief share / coordinate without dividing by zero: there the share is zero too. */
 inline Float shareOver(Float share, Float coordinate) {
-  const Float size = max(abs(coordinate), all(1e-20F));
+  const Float size = max(abs(coordinate), all(1e-9F));
   return withSign(share, coordinate) * inverse(size);
 }
 
 inline Gauge gauge(const Lanes& l, const Vector& y) {
-  const Float tiny = all(1e-30F);
+  const Float tiny = all(1e-12F);
   const Norm inner = logNorm(log(max(abs(y.x) * l.inverse_axis[0], tiny)),
                              log(max(abs(y.y) * l.inverse_axis[1], tiny)),
                              l.q2,

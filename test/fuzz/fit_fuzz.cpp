@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fits clouds that no sensor should ever deliver: fit_fuzz [COUNT] [SEED]. Fails when a
+// fit yields numbers that are no superquadric, claims success for nothing, or takes
+// longer than a tenth of a second of processor time.
+#include "pcl_sq/fit_superquadric.h"
+
+#include "random_superquadric.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+namespace {
+
+using namespace pcl_sq;
+using pcl_sq::test::Random;
+
+constexpr double LONGEST = 0.1; ///< [s]
+
+double processorTime() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+int integer(Random& random, int low, int high) {
+  return static_cast<int>(random.uniform(low, high + 1 - 1e-9));
+}
+
+/** \brief Points of a shape whose exponents or proportions are extreme. */
+Eigen::Matrix3Xd surface(Random& random, int count) {
+  Superquadric s = random.superquadric();
+  const double ends[] = {0.05, 0.1, 1.0, 2.0};
+  s.epsilon1 = ends[integer(random, 0, 3)];
+  s.epsilon2 = ends[integer(random, 0, 3)];
+  for (int k = 0; k < 3; ++k)
+    s.semi_axes[k] = std::pow(10.0, random.uniform(-2.5, 2.5));
+  Eigen::Matrix3Xd points(3, count);
+  for (int i = 0; i < count; ++i)
+    points.col(i) = random.surfacePoint(s);
+  return points;
+}
+
+Eigen::Matrix3Xd cloud(Random& random) {
+  const int count = integer(random, 0, 80);
+  Eigen::Matrix3Xd points = surface(random, count);
+  const auto normal = [&random] { return random.normal(); };
+  switch (integer(random, 0, 9)) {
+  case 0: // three places at most
+    points.resize(3, integer(random, 0, 3));
+    points = points.NullaryExpr(3, points.cols(), normal);
+    break;
+  case 1: // a line, exact or nearly
+    for (int i = 0; i < count; ++i)
+      points.col(i) = random.normal() * Eigen::Vector3d(1, 2, 3) +
+                      1e-9 * Eigen::Vector3d(normal(), normal(), normal());
+    break;
+  case 2: // a plane
+    points.row(integer(random, 0, 2)).setConstant(random.normal());
+    break;
+  case 3: // few places, each many times
+    for (int i = 0; i < count; ++i)
+      points.col(i) = points.col(i % integer(random, 1, 5));
+    break;
+  case 4: // a blob
+    points = points.NullaryExpr(3, count, normal);
+    break;
+  case 5: // one point far away
+    if (count > 0)
+      points.col(0) *= 1e6;
+    break;
+  case 6: // numbers that are none
+    for (int i = 0; i < count; i += integer(random, 1, 4))
+      points(integer(random, 0, 2), i) =
+          integer(random, 0, 1) ? std::nan("") : INFINITY;
+    break;
+  case 7: // two of them
+    for (int i = 0; i < count / 2; ++i)
+      points.col(i) = random.normal() * points.col(i) + Eigen::Vector3d(3, 0, 0);
+    break;
+  case 8: // a lattice
+    points = (points * 4.0).array().round();
+    break;
+  default: // the bare surface
+    break;
+  }
+  points *= std::pow(10.0, random.uniform(-9.0, 9.0));
+  if (integer(random, 0, 1) && points.cols() > 0)
+    points.colwise() += Eigen::Vector3d(normal(), normal(), normal()) *
+                        points.cwiseAbs().maxCoeff() *
+                        std::pow(10.0, random.uniform(-2.0, 4.0));
+  return points;
+}
+
+FitOptions options(Random& random) {
+  FitOptions o;
+  o.robust = integer(random, 0, 3) > 0;
+  o.size_prior = integer(random, 0, 3) > 0;
+  return o;
+}
+
+/** \brief What is wrong with a result; empty when nothing is. */
+std::string complaint(const FitSummary& s, double seconds) {
+  std::string why;
+  if (s.ok() && !s.model.isValid(&why))
+    return "invalid model: " + why;
+  if (!std::isfinite(s.rms_distance) || !std::isfinite(s.distortion) ||
+      !std::isfinite(s.sigma) || !s.covariance.allFinite())
+    return "not finite: rms " + std::to_string(s.rms_distance) + ", distortion " +
+           std::to_string(s.distortion) + ", sigma " + std::to_string(s.sigma) +
+           ", covariance " + std::to_string(s.covariance.sum());
+  if (seconds > LONGEST)
+    return "took " + std::to_string(seconds) + " s";
+  return {};
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const long count = argc > 1 ? std::atol(argv[1]) : 2000;
+  const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atol(argv[2])) : 1U;
+  long failures = 0, usable = 0;
+  double longest = 0.0;
+  for (long i = 0; i < count; ++i) {
+    // each case can be repeated alone: fit_fuzz 1 SEED
+    Random random(seed + static_cast<unsigned>(i));
+    const Eigen::Matrix3Xd points = cloud(random);
+    const FitOptions o = options(random);
+    const double begin = processorTime();
+    const FitSummary summary = fitSuperquadric(points, o);
+    const double seconds = processorTime() - begin;
+    longest = std::max(longest, seconds);
+    usable += summary.ok();
+    const std::string why = complaint(summary, seconds);
+    if (!why.empty() && ++failures <= 20)
+      std::fprintf(stderr,
+                   "seed %ld (%ld points): %s\n",
+                   static_cast<long>(seed) + i,
+                   static_cast<long>(points.cols()),
+                   why.c_str());
+  }
+  std::printf("%ld fits, %ld usable, %ld failures, longest %.1f ms\n",
+              count,
+              usable,
+              failures,
+              1e3 * longest);
+  return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
