@@ -59,15 +59,16 @@ CellRect boundsOf(const CellMask& mask, const CellRect& within) {
 std::vector<CellRect> takeRectangles(CellMask& rest, double least) {
   std::vector<int> weights(rest.cells.size());
   std::vector<CellRect> rects;
-  for (;;) {
+  while (rest.count() >= std::max(1.0, least)) {
     for (std::size_t c = 0; c < weights.size(); ++c)
       weights[c] = rest.cells[c] ? 1 : -MISSING_WEIGHT;
     const CellRect rect = heaviestRect(weights, rest.width, rest.height);
-    if (rect.area() == 0 || countCells(rest, rect) < least)
-      return rects;
+    if (countCells(rest, rect) < least)
+      break;
     rects.push_back(rect);
     clearCells(rest, rect);
   }
+  return rects;
 }
 
 /** Cells from a cell to a rectangle, diagonals as one; 0 within. */
