@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point cloud in, union of superquadrics out.
+// Point clouds in, unions of superquadrics out.
 #include "app.h"
+#include "files.h"
 #include "model_options.h"
 
 #include "pcl_sq/stage_timer.h"
+
+#include <atomic>
+#include <iostream>
+#include <thread>
 
 using namespace pcl_sq;
 
@@ -15,13 +20,98 @@ const char* const EXAMPLES =
     "  pcl_sq_fit cup.pcd -o cup.json --snapshot cup.png\n"
     "  pcl_sq_fit scene.pcd --remove-plane --mesh object.ply\n"
     "  pcl_sq_fit kinect.pcd --roi 250,200,140,180 --grasp-points grasp.pcd\n"
-    "  pcl_sq_fit can.ply --decomposition none --axis-assignment best_of_3\n";
+    "  pcl_sq_fit can.ply --decomposition none\n"
+    "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n";
+
+struct Arguments {
+  std::vector<std::string> clouds;
+  bool jsonl = false;
+  app::ModelOptions options;
+};
+
+app::ModelResult fit(const std::string& path,
+                     const app::ModelOptions& options,
+                     app::LoadedCloud& input) {
+  std::vector<std::pair<std::string, double>> timings;
+  StageTimer timer(timings);
+  input = timer.run("load", [&] { return app::loadCloud(path); });
+  return app::makeModel(input, path, options, timings.back().second);
+}
+
+int fitOne(const Arguments& arguments) {
+  app::LoadedCloud input;
+  const app::ModelResult result = fit(arguments.clouds[0], arguments.options, input);
+  app::writeOutputs(input, result, arguments.options);
+  if (!app::quiet())
+    app::printSummary(result);
+  return app::DONE;
+}
+
+/** \brief One JSON line per cloud in the order of the arguments; clouds in parallel. */
+int fitMany(const Arguments& arguments) {
+  app::ModelOptions options = arguments.options;
+  const std::size_t count = arguments.clouds.size();
+  const unsigned cores =
+      options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+  const std::size_t workers = std::clamp<std::size_t>(cores, 1, count);
+  options.threads = workers > 1 ? 1 : options.threads;
+  std::vector<std::string> lines(count), errors(count);
+  std::atomic<std::size_t> next{0}, done{0};
+  app::Progress progress("fitting", count);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        app::LoadedCloud input;
+        lines[i] = toJson(fit(arguments.clouds[i], options, input).file, -1);
+      } catch (const std::bad_alloc&) {
+        errors[i] = "not enough memory for '" + arguments.clouds[i] + "'.";
+      } catch (const std::exception& error) {
+        errors[i] = arguments.clouds[i] + ": " + error.what();
+      }
+      progress.update(++done);
+    }
+  };
+  std::vector<std::thread> pool;
+  for (std::size_t i = 1; i < workers; ++i)
+    pool.emplace_back(work);
+  work();
+  for (std::thread& thread : pool)
+    thread.join();
+
+  std::string text;
+  int code = app::DONE;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!errors[i].empty()) {
+      std::cerr << "pcl_sq_fit: " << errors[i] << '\n';
+      code = app::FAILED;
+    } else
+      text += lines[i] + "\n";
+  }
+  if (options.output.empty())
+    std::cout << text;
+  else if (!text.empty())
+    app::writeTextFile(options.output, text);
+  return code;
+}
+
+int checkedFit(const Arguments& arguments) {
+  const app::ModelOptions& options = arguments.options;
+  const bool single_outputs = !options.mesh.empty() || !options.grasp_points.empty() ||
+                              !options.snapshot.empty();
+  if (arguments.clouds.size() > 1 && !arguments.jsonl)
+    throw app::UsageError("several clouds need --jsonl, one JSON line for each.");
+  if (arguments.jsonl && single_outputs)
+    throw app::UsageError(
+        "--jsonl goes with -o alone; --mesh, --grasp-points and --snapshot are for one "
+        "cloud.");
+  app::checkModelOptions(options);
+  return arguments.jsonl ? fitMany(arguments) : fitOne(arguments);
+}
 
 } // namespace
 
 int main(int argc, char** argv) {
-  std::string input_path;
-  app::ModelOptions options;
+  Arguments arguments;
   return app::run(
       argc,
       argv,
@@ -29,22 +119,13 @@ int main(int argc, char** argv) {
       DESCRIPTION,
       EXAMPLES,
       [&](CLI::App& cli) {
-        cli.add_option("cloud", input_path, "Point cloud")
+        cli.add_option("cloud", arguments.clouds, "Point clouds")
             ->required()
-            ->type_name("FILE");
-        app::addModelOptions(cli, options);
+            ->type_name("FILE...");
+        cli.add_flag("--jsonl",
+                     arguments.jsonl,
+                     "One JSON line per cloud, on stdout or in -o; clouds in parallel");
+        app::addModelOptions(cli, arguments.options);
       },
-      [&] {
-        app::checkModelOptions(options);
-        std::vector<std::pair<std::string, double>> timings;
-        StageTimer timer(timings);
-        const app::LoadedCloud input =
-            timer.run("load", [&] { return app::loadCloud(input_path); });
-        const app::ModelResult result =
-            app::makeModel(input, input_path, options, timings.back().second);
-        app::writeOutputs(input, result, options);
-        if (!app::quiet())
-          app::printSummary(result);
-        return int(app::DONE);
-      });
+      [&] { return checkedFit(arguments); });
 }

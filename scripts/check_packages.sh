@@ -19,7 +19,7 @@ field() { dpkg-deb -f "$1" "$2"; }
 package() { echo "$build/deb/$1"_*.deb; }
 
 core=$(package libpcl-sq-core) core_dev=$(package libpcl-sq-core-dev)
-field "$core" Depends | grep libc6 >/dev/null || fail "core misses libc6"
+field "$core" Depends | grep libpcl-common >/dev/null || fail "core misses libpcl-common"
 for deb in "$core" "$core_dev"; do
   field "$deb" Depends | grep -E 'libvtk|libopencv' && fail "$deb depends on VTK or OpenCV"
 done

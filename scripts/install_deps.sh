@@ -9,8 +9,8 @@ packages=(
   libeigen3-dev libpcl-dev libopencv-dev libopencv-contrib-dev libvtk9-dev
   nlohmann-json3-dev libcli11-dev
   libgtest-dev libbenchmark-dev
-  xvfb xauth libgl1-mesa-dri
-  clang-format-14
+  libx11-dev libgl-dev xvfb libgl1-mesa-dri
+  clang-format-14 doxygen
 )
 
 # the names of the packages that are not installed

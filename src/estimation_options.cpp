@@ -7,11 +7,20 @@ namespace pcl_sq {
 
 bool EstimationOptions::isValid(std::string* why) const {
   if (!voxels.isValid(why) || !prisms.isValid(why) || !paper_fit.isValid(why) ||
-      !full_fit.isValid(why))
+      !full_fit.isValid(why) || !view.isValid(why) || !object_fit.isValid(why))
     return false;
   detail::OptionCheck check(why);
   check.inRange("grasp_threshold", grasp_threshold, 1e-9, 1.0);
   return check.passed();
+}
+
+EstimationOptions EstimationOptions::paper() { return {}; }
+
+EstimationOptions EstimationOptions::best() {
+  EstimationOptions options;
+  options.decomposition = Decomposition::PARTS;
+  options.fit = FitMode::FULL;
+  return options;
 }
 
 } // namespace pcl_sq

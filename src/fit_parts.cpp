@@ -16,8 +16,13 @@ FitSummary fitPart(const RoiBox& region,
                    const Eigen::Matrix3d& object_rotation,
                    const Eigen::Matrix3Xd& points,
                    const EstimationOptions& options) {
-  if (options.fit == FitMode::FULL)
-    return fitSuperquadric(points, options.full_fit);
+  if (options.fit == FitMode::FULL) {
+    FitSummary flat; // no volume can be told from a plane, a line or a point
+    flat.termination = Termination::DEGENERATE;
+    return detail::spannedDimensions(points) < 3
+               ? flat
+               : fitSuperquadric(points, options.full_fit);
+  }
   // III-B: the region's centre, the principal axes, a1 and a2 from the extents
   const Eigen::Vector3d center = options.center == CenterRule::MEAN
                                      ? detail::momentsOf(points).mean

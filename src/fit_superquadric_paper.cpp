@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace pcl_sq {
@@ -89,6 +90,31 @@ Superquadric turned(const Superquadric& s, int shift) {
   return t;
 }
 
+/** \brief Half the points' extent along a direction, a share cut off at each end. */
+double halfExtent(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                  const Eigen::Vector3d& direction,
+                  double cut) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::vector<float> along; // only quantiles need all of them
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!points.col(i).allFinite())
+      continue;
+    const double value = direction.dot(points.col(i));
+    low = std::min(low, value);
+    high = std::max(high, value);
+    if (cut > 0.0)
+      along.push_back(float(value));
+  }
+  if (!along.empty()) {
+    const auto skip = static_cast<std::ptrdiff_t>(cut * double(along.size() - 1));
+    std::nth_element(along.begin(), along.begin() + skip, along.end());
+    low = double(along[skip]);
+    std::nth_element(along.begin(), along.end() - 1 - skip, along.end());
+    high = double(*(along.end() - 1 - skip));
+  }
+  return high > low ? 0.5 * (high - low) : 0.0;
+}
+
 /** \brief Where a turned body has the depth, the paper's a3. */
 int freeAxis(int shift) {
   return (2 - shift + 3) % 3;
@@ -105,24 +131,10 @@ Superquadric initialSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& point
   s.center = center;
   s.rotation = rotation;
   s.semi_axes.setConstant(0.5 * depth);
-  std::vector<double> along;
-  along.reserve(points.cols());
-  for (int axis = 0; axis < 2; ++axis) {
-    along.clear();
-    for (Eigen::Index i = 0; i < points.cols(); ++i)
-      if (points.col(i).allFinite())
-        along.push_back(rotation.col(axis).dot(points.col(i) - center));
-    if (along.empty())
-      continue;
-    const double share =
-        options.extents == Extents::QUANTILES ? std::max(options.quantile, 0.0) : 0.0;
-    const auto cut = static_cast<std::size_t>(share * double(along.size() - 1));
-    const auto low = along.begin() + cut, high = along.end() - 1 - cut;
-    std::nth_element(along.begin(), low, along.end());
-    const double smallest = *low;
-    std::nth_element(along.begin(), high, along.end());
-    s.semi_axes[axis] = 0.5 * (*high - smallest);
-  }
+  const double cut =
+      options.extents == Extents::QUANTILES ? std::max(options.quantile, 0.0) : 0.0;
+  for (int axis = 0; axis < 2; ++axis)
+    s.semi_axes[axis] = halfExtent(points, rotation.col(axis), cut);
   // no axis may vanish: a face seen head-on has no depth of its own
   const double floor = 1e-3 * s.semi_axes.maxCoeff();
   s.semi_axes = s.semi_axes.cwiseMax(floor);

@@ -2,21 +2,25 @@
 #include "pcl_sq/impl/grasp_point_filter.hpp"
 
 #include "instantiate.h"
+#include "surface_statistics.h"
 
-#include <limits>
+#include <cmath>
 
 namespace pcl_sq {
 
-bool isOnSurface(const MultiSuperquadric& model,
-                 const Eigen::Vector3d& point,
-                 SurfaceMetric metric,
-                 double tolerance) {
-  if (metric == SurfaceMetric::GAUGE)
-    return std::abs(model.gauge(point) - 1.0) <= tolerance;
-  double distance = std::numeric_limits<double>::infinity();
-  for (const Superquadric& part : model.parts)
-    distance = std::min(distance, part.firstOrderDistance(point));
-  return std::abs(distance) <= tolerance;
+std::vector<bool> onSurface(const MultiSuperquadric& model,
+                            const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                            SurfaceMetric metric,
+                            double tolerance) {
+  const std::vector<double> residuals = detail::smallestResiduals(
+      model,
+      points,
+      metric == SurfaceMetric::GAUGE ? kernels::Residual::GAUGE
+                                     : kernels::Residual::FIRST_ORDER);
+  std::vector<bool> hits(residuals.size());
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    hits[i] = std::abs(residuals[i]) <= tolerance;
+  return hits;
 }
 
 } // namespace pcl_sq

@@ -82,6 +82,25 @@ std::array<Eigen::Vector3d, 8> OrientedBox::corners() const {
   return all;
 }
 
+TriangleMesh meshBox(const OrientedBox& box) {
+  TriangleMesh mesh;
+  const auto corners = box.corners();
+  mesh.vertices.assign(corners.begin(), corners.end());
+  mesh.triangles = {{0, 2, 1},
+                    {1, 2, 3},
+                    {4, 5, 6},
+                    {5, 7, 6},
+                    {0, 1, 4},
+                    {1, 5, 4},
+                    {2, 6, 3},
+                    {3, 6, 7},
+                    {0, 4, 2},
+                    {2, 4, 6},
+                    {1, 3, 5},
+                    {3, 7, 5}};
+  return mesh;
+}
+
 double distance(const OrientedBox& box, const Superquadric& superquadric) {
   return std::max(gjk(box, superquadric, 0.0, true), 0.0);
 }

@@ -9,6 +9,10 @@ namespace {
 /** Cells farther than this from a prism do not belong to it [cells]. */
 constexpr int FRINGE = 2;
 
+/** Missing cells that outweigh a valid one. With 1, a neck half as wide as its bottle
+ * costs nothing and stays in the body's prism; with 2 a row must be two thirds full. */
+constexpr int MISSING_WEIGHT = 2;
+
 /** The rectangle with the largest sum of weights, the smallest of equals: all pairs of
  * rows, Kadane's scan along each. */
 CellRect heaviestRect(const std::vector<int>& weights, int width, int height) {
@@ -55,15 +59,16 @@ CellRect boundsOf(const CellMask& mask, const CellRect& within) {
 std::vector<CellRect> takeRectangles(CellMask& rest, double least) {
   std::vector<int> weights(rest.cells.size());
   std::vector<CellRect> rects;
-  for (;;) {
+  while (rest.count() >= std::max(1.0, least)) {
     for (std::size_t c = 0; c < weights.size(); ++c)
-      weights[c] = rest.cells[c] ? 1 : -1;
+      weights[c] = rest.cells[c] ? 1 : -MISSING_WEIGHT;
     const CellRect rect = heaviestRect(weights, rest.width, rest.height);
-    if (rect.area() == 0 || countCells(rest, rect) < least)
-      return rects;
+    if (countCells(rest, rect) < least)
+      break;
     rects.push_back(rect);
     clearCells(rest, rect);
   }
+  return rects;
 }
 
 /** Cells from a cell to a rectangle, diagonals as one; 0 within. */

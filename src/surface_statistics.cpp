@@ -13,6 +13,15 @@ namespace {
 
 constexpr Eigen::Index CHUNK = 4096; ///< points at a time: bounds the memory
 
+/** \brief The model's own frame: its box around the origin, of size about one. */
+UnitFrame frameOf(const MultiSuperquadric& model) {
+  const Eigen::AlignedBox3d box = model.boundingBox();
+  UnitFrame frame;
+  frame.origin = box.center();
+  frame.scale = 0.5 * box.sizes().maxCoeff();
+  return frame;
+}
+
 /** \brief Replaces each value by the entry of smaller size among all parts. */
 void keepNearest(const std::vector<float>& candidate, std::vector<float>& nearest) {
   for (std::size_t i = 0; i < nearest.size(); ++i)
@@ -27,10 +36,7 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
   SurfaceStatistics statistics;
   if (model.empty())
     return statistics;
-  const Eigen::AlignedBox3d box = model.boundingBox();
-  UnitFrame frame;
-  frame.origin = box.center();
-  frame.scale = 0.5 * box.sizes().maxCoeff();
+  const UnitFrame frame = frameOf(model);
   std::vector<kernels::Shape> shapes;
   std::vector<double> factors; // sqrt(a1 a2 a3), Eq. (7)
   for (const Superquadric& part : model.parts) {
@@ -74,6 +80,27 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
     statistics.rms_distance = frame.scale * std::sqrt(squares / double(count));
   }
   return statistics;
+}
+
+std::vector<double> smallestResiduals(const MultiSuperquadric& model,
+                                      const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                      kernels::Residual residual) {
+  std::vector<double> smallest(points.cols(), std::numeric_limits<double>::infinity());
+  if (model.empty())
+    return smallest;
+  const UnitFrame frame = frameOf(model);
+  const bool metric =
+      residual != kernels::Residual::GAUGE && residual != kernels::Residual::SOLINA;
+  const double unit = metric ? frame.scale : 1.0;
+  const UnitPoints unit_points = toUnit(points, frame);
+  std::vector<float> values(unit_points.size() + kernels::BLOCK);
+  for (const Superquadric& part : model.parts) {
+    kernels::kernels().residuals(
+        unit_points.view(), toShape(frame.toUnit(part)), residual, values.data());
+    for (std::size_t i = 0; i < unit_points.size(); ++i)
+      smallest[i] = std::min(smallest[i], unit * double(values[i]));
+  }
+  return smallest;
 }
 
 } // namespace pcl_sq::detail

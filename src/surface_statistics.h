@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "kernels/kernels.h"
 #include "pcl_sq/multi_superquadric.h"
+
+#include <vector>
 
 namespace pcl_sq::detail {
 
@@ -15,5 +18,12 @@ struct SurfaceStatistics {
  * left out. Zeros for no points or an empty model. */
 SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
                                     const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
+/** \brief The smallest signed residual of all parts for each point: where a point lies
+ * in the union. Distances are in metres; infinity for an empty model. \param[in] points
+ * finite */
+std::vector<double> smallestResiduals(const MultiSuperquadric& model,
+                                      const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                      kernels::Residual residual);
 
 } // namespace pcl_sq::detail

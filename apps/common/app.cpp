@@ -41,6 +41,7 @@ int run(int argc,
     cli.add_flag("-q,--quiet", quiet_requested, "No progress, no summary");
     cli.get_formatter()->column_width(34);
     configure(cli);
+    cli.allow_config_extras(CLI::config_extras_mode::error);
     try {
       cli.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

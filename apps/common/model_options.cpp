@@ -50,13 +50,17 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       cli,
       "--decomposition",
       options.decomposition,
-      {{"none", Decomposition::NONE}, {"prisms", Decomposition::PRISMS}},
-      "One superquadric, or one per prism of voxels");
-  addChoice<FitMode>(cli,
-                     "--fit",
-                     options.fit,
-                     {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
-                     "The paper's three parameters, or all eleven");
+      {{"none", Decomposition::NONE},
+       {"prisms", Decomposition::PRISMS},
+       {"parts", Decomposition::PARTS}},
+      "One superquadric, one per prism of voxels, or as many as the data ask for");
+  addChoice<FitMode>(
+      cli,
+      "--fit",
+      options.fit,
+      {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
+      "The paper's three parameters, or all eleven; full is the default of "
+      "--decomposition none");
   PaperFitOptions& fit = options.paper_fit;
   addChoice<Cost>(
       cli,
@@ -134,7 +138,16 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
 std::string optionsToJson(const ModelOptions& options) {
   nlohmann::ordered_json json;
   const EstimationOptions& e = options.estimation;
-  json["decomposition"] = e.decomposition == Decomposition::NONE ? "none" : "prisms";
+  json["decomposition"] = e.decomposition == Decomposition::NONE     ? "none"
+                          : e.decomposition == Decomposition::PRISMS ? "prisms"
+                                                                     : "parts";
+  if (e.decomposition == Decomposition::PARTS) {
+    json["parts"] = e.object_fit.parts;
+    json["max_parts"] = e.object_fit.max_parts;
+    if (!options.mask.empty())
+      json["mask"] = options.mask;
+    return json.dump();
+  }
   json["fit"] = e.fit == FitMode::PAPER ? "paper" : "full";
   json["cost"] = e.paper_fit.cost == Cost::PAPER    ? "paper"
                  : e.paper_fit.cost == Cost::SOLINA ? "solina"
@@ -174,9 +187,24 @@ std::string reportToJson(const EstimationReport& report) {
                                     {"iterations", part.fit.iterations},
                                     {"termination", toString(part.fit.termination)},
                                     {"fit_ms", part.fit_ms}};
+    if (report.view.points.cols() > 0) {
+      entry["shape"] = toString(part.shape.shape);
+      entry["upright"] = part.shape.upright;
+      entry["on_axis"] = part.shape.on_axis;
+      entry["margin"] = part.margin;
+      entry["noise"] = part.fit.sigma;
+    }
     if (i < report.prisms.size())
       entry["prism"] = boxToJson(report.prisms[i].box);
     json["parts"].push_back(entry);
+  }
+  if (report.view.points.cols() > 0) {
+    json["outline"] = toString(report.view.outline);
+    if (report.view.table) {
+      const TableModel& t = *report.view.table;
+      json["table"] = {t.normal.x(), t.normal.y(), t.normal.z(), t.offset};
+    }
+    json["notes"] = report.view.notes;
   }
   json["grasp_points"] = report.grasp_indices.size();
   return nlohmann::ordered_json{{"report", json}}.dump();
@@ -189,6 +217,7 @@ struct Selection {
   pcl::IndicesPtr indices = pcl::make_shared<pcl::Indices>();
   bool has_region = false;
   RoiBox region;
+  std::optional<TablePlane> table; ///< where the plane was removed
 };
 
 pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
@@ -226,6 +255,7 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
       tabletop.setCandidates(pointsInImage(cloud, rect));
     if (!tabletop.segment(*selection.indices))
       throw Failure(tabletop.getFailure() + ".");
+    selection.table = tabletop.getPlane();
   } else if (!rect.empty()) {
     RoiEstimator<Point> estimator;
     estimator.setInputCloud(input.cloud);
@@ -253,6 +283,7 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.set_config("--config", "", "TOML file with options; the command line wins")
       ->check(CLI::ExistingFile);
   cli.add_option("-o,--output", options.output, "Model as JSON")->type_name("FILE");
+  addViewOptions(cli, options);
   addFitOptions(cli, options.estimation);
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
       ->expected(4)
@@ -311,7 +342,12 @@ ModelResult makeModel(const LoadedCloud& input,
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
   estimation.setIndices(selection.indices);
-  estimation.setOptions(options.estimation);
+  EstimationOptions settings = options.estimation;
+  settings.view = makeView(options);
+  std::string why;
+  if (!settings.isValid(&why))
+    throw Failure(why + ".");
+  estimation.setOptions(settings);
   estimation.setNumberOfThreads(options.threads);
   if (selection.has_region)
     estimation.setRegion(selection.region);
@@ -321,6 +357,10 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  if (selection.table)
+    result.up = selection.table->normal;
+  else if (result.report.view.table)
+    result.up = result.report.view.table->normal;
 
   ModelFile& file = result.file;
   file.model = model;

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct ModelOptions {
   std::vector<int> roi;    ///< x, y, w, h [px], or empty
   std::vector<double> box; ///< min x y z, max x y z [m], or empty
   bool remove_plane = false;
+  std::string mask;               ///< PNG, or empty
+  std::vector<double> intrinsics; ///< fx, fy, cx, cy [px], or empty
+  std::vector<double> viewpoint;  ///< x, y, z [m], or empty
+  std::vector<double> table;      ///< nx, ny, nz, d [m], or empty
   TabletopOptions tabletop;
 
   std::string output; ///< model JSON
@@ -32,6 +37,13 @@ struct ModelOptions {
 /** \brief Adds the options to a program. */
 void addModelOptions(CLI::App& cli, ModelOptions& options);
 
+/** \brief Options of the best mode: preset, view, number of parts. */
+void addViewOptions(CLI::App& cli, ModelOptions& options);
+
+/** \brief The view that the options tell of. \throw Failure if the mask cannot be read
+ */
+ViewOptions makeView(const ModelOptions& options);
+
 /** \brief Refuses contradictions and files that could not be written later. */
 void checkModelOptions(const ModelOptions& options);
 
@@ -39,7 +51,8 @@ void checkModelOptions(const ModelOptions& options);
 struct ModelResult {
   ModelFile file;
   EstimationReport report;
-  pcl::Indices object; ///< points that were given to the estimation
+  pcl::Indices object;               ///< points that were given to the estimation
+  std::optional<Eigen::Vector3d> up; ///< normal of the table, where one is known
 };
 
 /** \brief Region, plane removal and estimation. \throw Failure if there is no model */

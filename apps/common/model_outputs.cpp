@@ -4,6 +4,7 @@
 #include "model_options.h"
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
+#include "cloud_picture.h"
 #include "pcl_sq/visualization/mesh_writer.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 #endif
@@ -33,17 +34,11 @@ void writeGraspPoints(const std::string& path,
 void writeSnapshot(const std::string& path,
                    const LoadedCloud& input,
                    const ModelResult& result) {
-  const auto n = static_cast<Eigen::Index>(input.cloud->size());
-  Eigen::Matrix3Xd points(3, n);
-  SnapshotRenderer::Colors colors(3, input.has_color ? n : 0);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& p = (*input.cloud)[std::size_t(i)];
-    points.col(i) = p.getVector3fMap().cast<double>();
-    if (input.has_color)
-      colors.col(i) << p.r, p.g, p.b;
-  }
-  SnapshotRenderer renderer;
-  renderer.addCloud(points, colors);
+  SnapshotOptions picture;
+  if (result.up)
+    picture.up = *result.up;
+  SnapshotRenderer renderer(picture);
+  addCloud(renderer, input);
   renderer.addModel(result.file.model);
   renderer.save(path);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/fit_object.h"
 #include "pcl_sq/fit_options.h"
 #include "pcl_sq/prism.h"
 
@@ -8,8 +9,9 @@ namespace pcl_sq {
 
 /** \brief How an object is split before fitting. */
 enum class Decomposition {
-  NONE,  ///< one superquadric for all points
-  PRISMS ///< one for each rectangular prism of voxels (III-C)
+  NONE,   ///< one superquadric for all points
+  PRISMS, ///< one for each rectangular prism of voxels (III-C)
+  PARTS   ///< as many as the data ask for, from points, outline and table
 };
 
 /** \brief How a part's superquadric is found. */
@@ -39,9 +41,17 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   FitMode fit = FitMode::PAPER;
   PcaScope pca = PcaScope::OBJECT;
   CenterRule center = CenterRule::REGION;
-  PaperFitOptions paper_fit;     ///< for FitMode::PAPER
-  FitOptions full_fit;           ///< for FitMode::FULL
+  PaperFitOptions paper_fit;   ///< for FitMode::PAPER
+  FitOptions full_fit;         ///< for FitMode::FULL
+  ViewOptions view;            ///< for Decomposition::PARTS: what is known of the view
+  ObjectFitOptions object_fit; ///< for Decomposition::PARTS
   double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
+
+  /** \brief The paper's chain, as it stands (II-B, III): prisms, e1, e2 and a3. */
+  static EstimationOptions paper();
+  /** \brief The best this library can do with one view: points, outline and table,
+   * shapes and number of parts chosen by the data. */
+  static EstimationOptions best();
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */

@@ -62,12 +62,15 @@ private:
   double distance_threshold_ = 0.005;
 };
 
-/** \brief Whether a point is on the surface of a union of superquadrics.
- * \param[in] tolerance of |G - 1| or of the distance [m] */
-PCL_SQ_EXPORTS bool isOnSurface(const MultiSuperquadric& model,
-                                const Eigen::Vector3d& point,
-                                SurfaceMetric metric,
-                                double tolerance);
+/** \brief Which points are on the surface of a union of superquadrics.
+ * \param[in] points 3 x N, finite [m]
+ * \param[in] tolerance of |G - 1| or of the distance [m]
+ * \return one entry per point */
+PCL_SQ_EXPORTS std::vector<bool>
+onSurface(const MultiSuperquadric& model,
+          const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+          SurfaceMetric metric,
+          double tolerance);
 
 } // namespace pcl_sq
 

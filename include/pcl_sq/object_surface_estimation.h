@@ -18,8 +18,10 @@ namespace pcl_sq {
 struct PartReport {
   pcl::PointIndices indices; ///< points it was fitted to, in the input cloud
   FitSummary fit;
-  double fit_ms = 0.0; ///< time of the fit [ms]
-  int model_part = -1; ///< its index in the model; -1 if it gave none (see fit)
+  double fit_ms = 0.0;  ///< time of the fit [ms]
+  int model_part = -1;  ///< its index in the model; -1 if it gave none (see fit)
+  ShapeCandidate shape; ///< family of shapes chosen (Decomposition::PARTS)
+  double margin = 0.0;  ///< BIC by which the next family is worse
 };
 
 /** \brief What an estimation did, stage by stage. */
@@ -31,6 +33,7 @@ struct EstimationReport {
   std::vector<Prism> prisms;     ///< empty without a decomposition
   std::vector<PartReport> parts; ///< one per prism; one without a decomposition
   pcl::Indices grasp_indices;    ///< points on the union's surface
+  ObservedObject view;           ///< what was seen (Decomposition::PARTS)
   double distortion = 0.0;       ///< D of the union, Eq. (7), semi-axes in metres
   double rms_distance = 0.0;     ///< of the union [m]
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, [ms], in order
@@ -92,6 +95,8 @@ private:
   bool cropRegion(pcl::IndicesPtr& object);
   bool decompose(const pcl::IndicesPtr& object,
                  std::vector<pcl::PointIndices>& clusters);
+  bool observe(pcl::IndicesPtr& object);
+  bool fitObject(MultiSuperquadric& model);
   bool fitParts(const pcl::IndicesPtr& object,
                 std::vector<pcl::PointIndices>& clusters,
                 MultiSuperquadric& model);

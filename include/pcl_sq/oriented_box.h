@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/superquadric.h"
+#include "pcl_sq/triangle_mesh.h"
 
 #include <array>
 
@@ -32,6 +32,9 @@ struct PCL_SQ_EXPORTS OrientedBox {
   /** \brief The eight corners. */
   std::array<Eigen::Vector3d, 8> corners() const;
 };
+
+/** \brief The box's surface: twelve triangles. */
+PCL_SQ_EXPORTS TriangleMesh meshBox(const OrientedBox& box);
 
 /** \brief Distance between a box and a superquadric [m], zero where they overlap.
  *

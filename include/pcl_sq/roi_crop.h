@@ -38,6 +38,7 @@ protected:
   using pcl::CropBox<PointT>::input_;
   using pcl::CropBox<PointT>::extract_removed_indices_;
   using pcl::CropBox<PointT>::removed_indices_;
+  using pcl::CropBox<PointT>::negative_;
   using pcl::CropBox<PointT>::applyFilter;
 
   void applyFilter(pcl::Indices& indices) override;

@@ -22,8 +22,9 @@ enum class RoiExtent {
  * depths, which are disparities but for a factor, is the aperture; its ends are the z
  * sides of the box. Works on the clouds of stereo and of depth cameras, in the camera
  * frame (z forward). A mask is handed over by setIndices(); a point counts if it is in
- * both the indices and the rectangle. \tparam PointT point type with x, y, z \ingroup
- * pcl_sq
+ * both the indices and the rectangle.
+ * \tparam PointT point type with x, y, z
+ * \ingroup pcl_sq
  */
 template <typename PointT>
 class RoiEstimator : public pcl::PCLBase<PointT> {

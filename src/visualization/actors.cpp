@@ -3,6 +3,7 @@
 
 #include "visualization/cloud_style.h"
 #include "visualization/display_surface.h"
+#include "visualization/ink.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -65,7 +66,7 @@ Stage::Stage(vtkRenderer* renderer,
 void Stage::add(const SnapshotScene& scene) {
   addClouds(scene);
   for (std::size_t i = 0; i < scene.model.parts.size(); ++i)
-    addPart(scene.model.parts[i], partColor(i), scene.options.opacity);
+    addPart(scene.model.parts[i], partColor(i), scene.options);
   for (const auto& surface : scene.surfaces)
     addSurface(surface);
   for (const auto& s : scene.segments)
@@ -139,7 +140,9 @@ void Stage::addClouds(const SnapshotScene& scene) {
   renderer_->AddActor(actor);
 }
 
-void Stage::addPart(const Superquadric& part, Color color, double opacity) {
+void Stage::addPart(const Superquadric& part,
+                    Color color,
+                    const SnapshotOptions& options) {
   const DisplaySurface surface = displaySurface(part);
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> normals;
@@ -157,7 +160,7 @@ void Stage::addPart(const Superquadric& part, Color color, double opacity) {
   const auto actor = makeActor(data);
   vtkProperty* property = actor->GetProperty();
   setColor(property, color);
-  property->SetOpacity(opacity);
+  property->SetOpacity(options.opacity);
   property->SetAmbient(0.5);
   property->SetDiffuse(0.5);
   property->SetSpecular(0.15);
@@ -167,7 +170,9 @@ void Stage::addPart(const Superquadric& part, Color color, double opacity) {
   renderer_->AddActor(actor);
 
   // the outline strong, edges finer, those of the far side only hinted at
-  const Color ink = mix(color, {0, 0, 0}, 0.4);
+  const double unit =
+      std::max(0.6, std::min(camera_.width(), camera_.height()) / 960.0);
+  const Color ink = strongerOn(options.background, color);
   std::vector<Eigen::Vector3d> near_edges, far_edges;
   for (const auto& edge : surface.edges)
     for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
@@ -178,9 +183,9 @@ void Stage::addPart(const Superquadric& part, Color color, double opacity) {
       ends.push_back(surface.vertices[a]);
       ends.push_back(surface.vertices[b]);
     }
-  addSegments(lifted(outline(surface, to_eye)), ink, 2.2);
-  addSegments(lifted(near_edges), ink, 1.4);
-  addSegments(lifted(far_edges), mix(ink, color, 0.5), 1.0);
+  addSegments(lifted(outline(surface, to_eye)), ink, 2.2 * unit);
+  addSegments(lifted(near_edges), ink, 1.4 * unit);
+  addSegments(lifted(far_edges), mix(ink, color, 0.5), 1.0 * unit);
 }
 
 /** \brief Points a little closer to the eye than the surface they lie on. */
@@ -210,19 +215,24 @@ void Stage::addSurface(const SnapshotScene::Surface& surface) {
 
 void Stage::addSegments(const Eigen::Matrix3Xd& ends, Color color, double width) {
   vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkCellArray> lines, joints;
   for (Eigen::Index i = 0; i + 1 < ends.cols(); i += 2) {
     const vtkIdType first = points->InsertNextPoint(toStage(ends.col(i)).data());
     points->InsertNextPoint(toStage(ends.col(i + 1)).data());
     lines->InsertNextCell({first, first + 1});
+    joints->InsertNextCell({first});
+    joints->InsertNextCell({first + 1});
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(lines);
+  data->SetVerts(joints); // round ends, or a bend of wide lines would gape
   const auto actor = makeActor(data);
   setColor(actor->GetProperty(), color);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(zoom_ * width));
+  actor->GetProperty()->SetPointSize(static_cast<float>(zoom_ * width));
+  actor->GetProperty()->RenderPointsAsSpheresOn();
   renderer_->AddActor(actor);
 }
 
@@ -238,6 +248,8 @@ void Stage::addMarkers(const SnapshotScene::Markers& markers) {
   const auto actor = makeActor(data);
   setColor(actor->GetProperty(), markers.color);
   actor->GetProperty()->SetPointSize(static_cast<float>(zoom_ * markers.size));
+  actor->GetProperty()->SetAmbient(0.5);
+  actor->GetProperty()->SetDiffuse(0.6);
   actor->GetProperty()->RenderPointsAsSpheresOn();
   renderer_->AddActor(actor);
 }

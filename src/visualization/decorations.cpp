@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "visualization/ink.h"
 #include "visualization/overlay.h"
 #include "visualization/scale_bar.h"
 
@@ -11,12 +12,6 @@ namespace {
 
 constexpr Color INK = {40, 44, 52}, PALE_INK = {104, 110, 120};
 constexpr std::size_t LEGEND_LINES = 12; ///< more parts are counted in one last line
-
-/** \brief Dark ink on light paper, light ink on dark paper. */
-Color inkOn(Color paper, Color ink) {
-  const int brightness = 299 * paper.r + 587 * paper.g + 114 * paper.b;
-  return brightness > 128 * 1000 ? ink : mix(ink, {255, 255, 255}, 0.8);
-}
 
 bool showsLegend(const SnapshotScene& scene) {
   return scene.options.legend && scene.model.parts.size() > 1;
@@ -61,12 +56,25 @@ void drawScaleBar(Overlay& overlay,
 }
 
 /** \brief The cloud's axes as the picture shows them; nearer ones drawn last. */
-void drawTriad(Overlay& overlay, double text, const ViewCamera& camera) {
+void drawTriad(Overlay& overlay,
+               double text,
+               const SnapshotOptions& options,
+               const ViewCamera& camera) {
   static constexpr std::array<Color, 3> colors = {
       {{196, 48, 43}, {38, 140, 62}, {38, 84, 196}}};
   static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  const auto color = [&options](int axis) {
+    return isLight(options.background) ? colors[axis]
+                                       : mix(colors[axis], {255, 255, 255}, 0.4);
+  };
   const double length = 2.6 * text;
   const Eigen::Vector2d origin(4.2 * text, overlay.height() - 4.2 * text);
+  Eigen::Matrix2Xd disc(2, 48);
+  for (int i = 0; i < 48; ++i)
+    disc.col(i) =
+        origin +
+        4.0 * text * Eigen::Vector2d(std::cos(i * M_PI / 24), std::sin(i * M_PI / 24));
+  overlay.polygon(disc, options.background, 0.75);
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return camera.forward()[a] > camera.forward()[b];
@@ -83,12 +91,12 @@ void drawTriad(Overlay& overlay, double text, const ViewCamera& camera) {
         dot.col(i) = origin + 0.28 * text *
                                   Eigen::Vector2d(std::cos(i * M_PI / 8),
                                                   std::sin(i * M_PI / 8));
-      overlay.polygon(dot, colors[axis]);
+      overlay.polygon(dot, color(axis));
       overlay.text(names[axis],
                    origin.x() - 0.9 * text,
                    origin.y() + 0.8 * text,
                    0.9 * text,
-                   colors[axis],
+                   color(axis),
                    Align::CENTER,
                    true);
       continue;
@@ -96,17 +104,17 @@ void drawTriad(Overlay& overlay, double text, const ViewCamera& camera) {
     const Eigen::Vector2d along = tip / shown;
     const Eigen::Vector2d side(-along.y(), along.x());
     const double head = std::min(0.75 * text, 0.6 * length * shown);
-    overlay.stroke(origin, end - 0.8 * head * along, width, colors[axis]);
+    overlay.stroke(origin, end - 0.8 * head * along, width, color(axis));
     Eigen::Matrix2Xd arrow(2, 3);
     arrow << end, end - head * along + 0.4 * head * side,
         end - head * along - 0.4 * head * side;
-    overlay.polygon(arrow, colors[axis]);
+    overlay.polygon(arrow, color(axis));
     const Eigen::Vector2d label = end + 0.65 * text * along;
     overlay.text(names[axis],
                  label.x(),
                  label.y(),
                  0.9 * text,
-                 colors[axis],
+                 color(axis),
                  Align::CENTER,
                  true);
   }
@@ -129,7 +137,8 @@ void drawLegend(Overlay& overlay, double text, const SnapshotScene& scene) {
   for (std::size_t i = 0; i < lines; ++i, y += step) {
     const Color color = partColor(i);
     const double side = 0.9 * text, rim = std::max(1.0, 0.1 * text);
-    overlay.rectangle(x, y - 0.5 * side, side, side, mix(color, {0, 0, 0}, 0.4));
+    overlay.rectangle(
+        x, y - 0.5 * side, side, side, strongerOn(scene.options.background, color));
     overlay.rectangle(
         x + rim, y - 0.5 * side + rim, side - 2 * rim, side - 2 * rim, color);
     overlay.text("part " + std::to_string(i + 1), x + 1.4 * text, y, text, ink);
@@ -168,7 +177,7 @@ void drawDecorations(Overlay& overlay,
     return;
   drawTitle(overlay, layout.text, scene.options);
   if (scene.options.axes)
-    drawTriad(overlay, layout.text, camera);
+    drawTriad(overlay, layout.text, scene.options, camera);
   if (scene.options.scale_bar)
     drawScaleBar(overlay, layout.text, scene.options, camera);
   if (showsLegend(scene))

@@ -167,8 +167,10 @@ void SnapshotRenderer::save(const std::string& path) const {
   file.write(render());
 }
 
-std::vector<std::string> SnapshotRenderer::saveTurntable(const std::string& path,
-                                                         int count) const {
+std::vector<std::string> SnapshotRenderer::saveTurntable(
+    const std::string& path,
+    int count,
+    const std::function<void(std::size_t)>& progress) const {
   if (count < 1 || count > 1000)
     throw Exception("[pcl_sq::SnapshotRenderer::saveTurntable] the number of pictures "
                     "must lie in [1, 1000].");
@@ -192,6 +194,8 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(const std::string& path
     if (!renderer)
       renderer = std::make_unique<FrameRenderer>(o.width, o.height);
     file.write(renderer->render(*scene_, focus, camera));
+    if (progress)
+      progress(names.size());
   }
   return names;
 }

@@ -45,7 +45,7 @@ void expectRefusal(const Folder& folder,
                    int code = 1) {
   const std::size_t files = folder.files();
   arguments.insert(arguments.end(), {"-o", folder / "model.json"});
-  const Run run = runProgram("pcl_sq_fit", arguments);
+  const ProgramRun run = runProgram("pcl_sq_fit", arguments);
   std::string line;
   for (const std::string& argument : arguments)
     line += argument + " ";
@@ -60,7 +60,7 @@ void expectRefusal(const Folder& folder,
 TEST(FitApp, WritesAModelThatReadsBackWithItsTimes) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
-  const Run run = runProgram("pcl_sq_fit", {cloud, "-o", folder / "model.json"});
+  const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", folder / "model.json"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(run.err.empty()) << run.err;
   EXPECT_NE(run.out.find("superquadrics"), std::string::npos);
@@ -83,7 +83,7 @@ TEST(FitApp, SameModelForAnyNumberOfThreadsAndFileFormat) {
   const std::string body = bottlePcd().substr(bottlePcd().find("ascii\n") + 6);
   const std::string xyz = folder.write("bottle.xyz", body);
   const auto model = [&](const std::string& cloud, const std::string& threads) {
-    const Run run = runProgram(
+    const ProgramRun run = runProgram(
         "pcl_sq_fit", {cloud, "--threads", threads, "-q", "-o", folder / "m.json"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_TRUE(run.out.empty());
@@ -113,6 +113,27 @@ TEST(FitApp, ConfigFileGivesDefaultsAndTheCommandLineWins) {
   EXPECT_EQ(parts({"--decomposition", "prisms"}), 2u);
   expectRefusal(
       folder, {cloud, "--config", folder.write("bad.toml", "colour = 3\n")}, 2);
+}
+
+TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
+  const Folder folder;
+  const std::string first = folder.write("first.pcd", bottlePcd());
+  const std::string last = folder.write("last.pcd", bottlePcd(2000));
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {first, folder / "missing.pcd", last, "--jsonl"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.sentences(), 1) << run.err;
+  std::istringstream lines(run.out);
+  std::string line;
+  for (const std::string& path : {first, last}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    ModelFile file;
+    std::string why;
+    ASSERT_TRUE(fromJson(line, file, &why)) << why;
+    EXPECT_EQ(file.input_path, path);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+  EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
 }
 
 TEST(FitApp, BadCommandLinesEndWithTwo) {
@@ -215,7 +236,7 @@ TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
   const std::string nowhere = folder / "missing/model.json";
-  const Run run = runProgram("pcl_sq_fit", {cloud, "-o", nowhere});
+  const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", nowhere});
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.sentences(), 1) << run.err;
   EXPECT_EQ(folder.files(), 1u);
@@ -225,14 +246,15 @@ TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
 TEST(FitApp, TooLittleMemoryIsAnErrorAndNotAKill) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
-  const Run run = runProgram("pcl_sq_fit",
-                             {cloud, "--threads", "1", "--divisions", "250,250,250"},
-                             "ulimit -v 600000;");
+  const ProgramRun run =
+      runProgram("pcl_sq_fit",
+                 {cloud, "--threads", "1", "--divisions", "250,250,250"},
+                 "ulimit -v 600000;");
   EXPECT_TRUE(run.code == 0 || run.code == 1) << run.code << run.err;
   std::string big = "0 0 0\n";
   while (big.size() < (48u << 20))
     big += big;
-  const Run full =
+  const ProgramRun full =
       runProgram("pcl_sq_fit", {folder.write("big.xyz", big)}, "ulimit -v 500000;");
   EXPECT_EQ(full.code, 1) << full.err;
   EXPECT_EQ(full.sentences(), 1) << full.err;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/visualization/mesh_writer.h"
 
+#include "folder.h"
 #include "pcl_sq/exception.h"
 #include "random_superquadric.h"
-#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -79,7 +79,7 @@ std::string sentenceOf(const std::function<void()>& action) {
 } // namespace
 
 TEST(MeshWriter, EveryFormatHoldsTheWholeClosedSurface) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder;
   test::Random random(4);
   const Superquadric s = random.superquadric();
   const TriangleMesh mesh = meshSuperquadric(s, 16);
@@ -88,21 +88,21 @@ TEST(MeshWriter, EveryFormatHoldsTheWholeClosedSurface) {
     volume +=
         mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
   for (const std::string& ending : ENDINGS) {
-    const std::string path = folder.file("mesh" + ending);
+    const std::string path = folder / "mesh" + ending;
     writeMesh(path, mesh);
     const auto read = readMesh(path);
     EXPECT_EQ(read->GetNumberOfCells(), static_cast<vtkIdType>(mesh.triangles.size()))
         << ending;
     EXPECT_NEAR(volumeOf(read), volume, 1e-3 * volume) << ending;
   }
-  EXPECT_EQ(folder.size(), 4u) << "temporary files are left behind";
+  EXPECT_EQ(folder.files(), 4u) << "temporary files are left behind";
 }
 
 TEST(MeshWriter, PartsCarryTheirColoursAndNumbers) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder;
   const std::vector<TriangleMesh> parts = twoParts();
   for (const char* ending : {".ply", ".vtp"}) {
-    const std::string path = folder.file(std::string("parts") + ending);
+    const std::string path = folder / std::string("parts") + ending;
     writeMesh(path, parts);
     const auto read = readMesh(path);
     vtkDataArray* colors = read->GetPointData()->GetScalars();
@@ -114,7 +114,7 @@ TEST(MeshWriter, PartsCarryTheirColoursAndNumbers) {
     EXPECT_EQ(colors->GetComponent(last, 0), partColor(1).r) << ending;
     EXPECT_EQ(colors->GetComponent(last, 2), partColor(1).b) << ending;
   }
-  const auto vtp = readMesh(folder.file("parts.vtp"));
+  const auto vtp = readMesh(folder / "parts.vtp");
   vtkDataArray* numbers = vtp->GetCellData()->GetArray("part");
   ASSERT_NE(numbers, nullptr);
   EXPECT_EQ(numbers->GetComponent(0, 0), 1);
@@ -122,10 +122,10 @@ TEST(MeshWriter, PartsCarryTheirColoursAndNumbers) {
 }
 
 TEST(MeshWriter, PartsAreJoinedInFormatsWithoutColours) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder;
   const std::vector<TriangleMesh> parts = twoParts();
   for (const char* ending : {".obj", ".stl"}) {
-    const std::string path = folder.file(std::string("parts") + ending);
+    const std::string path = folder / std::string("parts") + ending;
     writeMesh(path, parts, {{1, 2, 3}, {4, 5, 6}});
     EXPECT_EQ(static_cast<std::size_t>(readMesh(path)->GetNumberOfCells()),
               parts[0].triangles.size() + parts[1].triangles.size());
@@ -133,41 +133,40 @@ TEST(MeshWriter, PartsAreJoinedInFormatsWithoutColours) {
 }
 
 TEST(MeshWriter, EndingsMayBeUpperCase) {
-  const test::TemporaryFolder folder;
-  writeMesh(folder.file("MESH.STL"), twoParts().front());
-  EXPECT_GT(readWith<vtkSTLReader>(folder.file("MESH.STL"))->GetNumberOfCells(), 0);
+  const test::Folder folder;
+  writeMesh(folder / "MESH.STL", twoParts().front());
+  EXPECT_GT(readWith<vtkSTLReader>(folder / "MESH.STL")->GetNumberOfCells(), 0);
 }
 
 TEST(MeshWriter, UnknownEndingsAreAnErrorThatNamesTheFour) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder;
   for (const std::string name : {"mesh.dae", "mesh", "mesh.", "ply"}) {
     const std::string sentence =
-        sentenceOf([&] { writeMesh(folder.file(name), twoParts().front()); });
+        sentenceOf([&] { writeMesh(folder / name, twoParts().front()); });
     for (const std::string& ending : ENDINGS)
       EXPECT_NE(sentence.find(ending), std::string::npos) << sentence;
   }
-  EXPECT_EQ(folder.size(), 0u);
+  EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(MeshWriter, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder;
   const TriangleMesh mesh = twoParts().front();
-  EXPECT_THROW(writeMesh(folder.file("no/such/folder/mesh.ply"), mesh), Exception);
-  EXPECT_THROW(writeMesh(folder.file("empty.ply"), TriangleMesh()), Exception);
+  EXPECT_THROW(writeMesh(folder / "no/such/folder/mesh.ply", mesh), Exception);
+  EXPECT_THROW(writeMesh(folder / "empty.ply", TriangleMesh()), Exception);
   TriangleMesh broken = mesh;
   broken.triangles.front()[1] = static_cast<std::uint32_t>(mesh.vertices.size());
-  EXPECT_THROW(writeMesh(folder.file("broken.ply"), broken), Exception);
+  EXPECT_THROW(writeMesh(folder / "broken.ply", broken), Exception);
   TriangleMesh infinite = mesh;
   infinite.vertices.front().x() = INFINITY;
-  EXPECT_THROW(writeMesh(folder.file("infinite.ply"), infinite), Exception);
-  EXPECT_THROW(writeMesh(folder.file("colours.ply"), twoParts(), {{1, 2, 3}}),
-               Exception);
-  EXPECT_EQ(folder.size(), 0u);
+  EXPECT_THROW(writeMesh(folder / "infinite.ply", infinite), Exception);
+  EXPECT_THROW(writeMesh(folder / "colours.ply", twoParts(), {{1, 2, 3}}), Exception);
+  EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(MeshWriter, AFailureKeepsTheFileThatWasThere) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.file("mesh.ply");
+  const test::Folder folder;
+  const std::string path = folder / "mesh.ply";
   std::ofstream(path) << "precious";
   EXPECT_THROW(writeMesh(path, TriangleMesh()), Exception);
   std::string text;

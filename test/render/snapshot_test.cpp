@@ -44,14 +44,18 @@ bool meets(const Superquadric& s, const ViewCamera& camera, double x, double y) 
     return false; // outside of the ball around it
   const double reach = 2.0 * s.semi_axes.norm() / direction.norm();
   double low = middle - reach, high = middle + reach;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    if (s.gauge(origin + a * direction) < s.gauge(origin + b * direction))
+    const double gauge_a = s.gauge(origin + a * direction);
+    const double gauge_b = s.gauge(origin + b * direction);
+    if (std::min(gauge_a, gauge_b) <= 1.0)
+      return true;
+    if (gauge_a < gauge_b)
       high = b;
     else
       low = a;
   }
-  return s.gauge(origin + 0.5 * (low + high) * direction) <= 1.0;
+  return false;
 }
 
 /** \brief Pixels in which picture and mathematics differ, the border's own pixels left
@@ -65,11 +69,11 @@ int wrongPixels(const SnapshotImage& image,
     for (int x = 0; x < image.width; x += 3) {
       const bool inside = meets(s, camera, x + 0.5, y + 0.5);
       bool border = false;
-      for (int k = 0; k < 4 && !border; ++k)
+      for (int k = 0; k < 8 && !border; ++k)
         border = meets(s,
                        camera,
-                       x + 0.5 + BORDER * std::cos(k * M_PI / 2),
-                       y + 0.5 + BORDER * std::sin(k * M_PI / 2)) != inside;
+                       x + 0.5 + BORDER * std::cos(k * M_PI / 4),
+                       y + 0.5 + BORDER * std::sin(k * M_PI / 4)) != inside;
       if (!border && inside != (image.at(x, y) != PAPER))
         ++wrong;
     }

@@ -63,17 +63,31 @@ void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
              filter_name_.c_str());
   const double tolerance =
       metric_ == SurfaceMetric::GAUGE ? gauge_tolerance_ : distance_threshold_;
+  constexpr Eigen::Index CHUNK = 4096; // points tested at a time
+  Eigen::Matrix3Xd points(3, CHUNK);
+  pcl::Indices tested;
+  const auto testChunk = [&] {
+    const auto n = static_cast<Eigen::Index>(tested.size());
+    const std::vector<bool> hits =
+        onSurface(model_, points.leftCols(n), metric_, tolerance);
+    for (std::size_t i = 0; i < tested.size(); ++i) {
+      if (hits[i] != negative_)
+        indices.push_back(tested[i]);
+      else if (extract_removed_indices_)
+        removed_indices_->push_back(tested[i]);
+    }
+    tested.clear();
+  };
   for (const auto index : *indices_) {
     const PointT& point = (*input_)[static_cast<std::size_t>(index)];
     if (!pcl::isXYZFinite(point))
       continue;
-    const bool on_surface =
-        isOnSurface(model_, {point.x, point.y, point.z}, metric_, tolerance);
-    if (on_surface != negative_)
-      indices.push_back(index);
-    else if (extract_removed_indices_)
-      removed_indices_->push_back(index);
+    points.col(static_cast<Eigen::Index>(tested.size())) << point.x, point.y, point.z;
+    tested.push_back(index);
+    if (static_cast<Eigen::Index>(tested.size()) == CHUNK)
+      testChunk();
   }
+  testChunk();
 }
 
 } // namespace pcl_sq

@@ -51,11 +51,18 @@ bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
   // II-B: the points of the query region
   pcl::IndicesPtr object(new pcl::Indices);
   bool found = timer.run("crop", [&] { return cropRegion(object); });
+  // the best mode looks at the whole view instead of the region's points alone
+  const bool parts = options_.decomposition == Decomposition::PARTS;
+  if (parts)
+    found = found && timer.run("observe", [&] { return observe(object); });
   // III-C, Figs. 3 and 4: voxels relative to the region, prisms of connected voxels
   std::vector<pcl::PointIndices> clusters;
-  found = found && timer.run("decompose", [&] { return decompose(object, clusters); });
+  found = found && (parts || timer.run("decompose",
+                                       [&] { return decompose(object, clusters); }));
   // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
-  found = found && timer.run("fit", [&] { return fitParts(object, clusters, model); });
+  found = found && timer.run("fit", [&] {
+    return parts ? fitObject(model) : fitParts(object, clusters, model);
+  });
   if (found)
     timer.run("evaluate", [&] {
       evaluate(object, model);
@@ -101,8 +108,70 @@ bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
   if (object->empty())
     return fail("no finite point lies in the region; check the box against the cloud's "
                 "extent");
+  constexpr double FARTHEST = 1e7; // [m]; beyond, single precision has no shape left
+  if (box.min().minCoeff() < -FARTHEST || box.max().maxCoeff() > FARTHEST)
+    return fail("the region reaches farther than 1e7 m; remove the outliers or set a "
+                "region");
   report_.region.min = box.min();
   report_.region.max = box.max();
+  return true;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::observe(pcl::IndicesPtr& object) {
+  Eigen::Matrix3Xf points(3, static_cast<Eigen::Index>(input_->size()));
+  for (std::size_t i = 0; i < input_->size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = (*input_)[i].getVector3fMap();
+  ViewOptions view = options_.view;
+  const Eigen::Vector3d origin =
+      input_->sensor_origin_.template head<3>().template cast<double>();
+  if (!view.viewpoint && origin.norm() > 0.0)
+    view.viewpoint = origin;
+  // all points are no choice: the object is still to be found among them
+  std::vector<int> columns;
+  if (has_region_ || indices_->size() < input_->size())
+    columns.assign(object->begin(), object->end());
+  std::string why;
+  if (!observeObject(points,
+                     static_cast<int>(input_->width),
+                     static_cast<int>(input_->height),
+                     columns,
+                     view,
+                     report_.view,
+                     &why))
+    return fail(why);
+  object->clear();
+  if (report_.view.pixels.cells.empty())
+    object->assign(report_.view.columns.begin(), report_.view.columns.end());
+  else
+    for (std::size_t i = 0; i < input_->size(); ++i)
+      if (report_.view.pixels.cells[i] && points.col(Eigen::Index(i)).allFinite())
+        object->push_back(static_cast<pcl::index_t>(i));
+  report_.region_points = object->size();
+  report_.region.min = report_.view.points.rowwise().minCoeff();
+  report_.region.max = report_.view.points.rowwise().maxCoeff();
+  return true;
+}
+
+template <typename PointT>
+bool ObjectSurfaceEstimation<PointT>::fitObject(MultiSuperquadric& model) {
+  ObjectFit fit = pcl_sq::fitObject(report_.view, options_.object_fit);
+  if (fit.model.empty())
+    return fail(std::to_string(report_.view.points.cols()) +
+                " points give no superquadric: they must span a volume");
+  model = fit.model;
+  report_.parts.resize(fit.parts.size());
+  for (std::size_t k = 0; k < fit.parts.size(); ++k) {
+    PartReport& part = report_.parts[k];
+    part.indices.header = input_->header;
+    part.fit = fit.parts[k].fit;
+    part.shape = fit.parts[k].chosen;
+    part.margin = fit.parts[k].margin;
+    part.model_part = static_cast<int>(k);
+    for (std::size_t i = 0; i < fit.labels.size(); ++i)
+      if (fit.labels[i] == static_cast<int>(k))
+        part.indices.indices.push_back(report_.view.columns[i]);
+  }
   return true;
 }
 
@@ -149,9 +218,12 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
     regions.push_back(prism.box);
   if (regions.empty())
     regions.push_back(report_.region);
+  // not in the call: the points would stay in memory during the fits
+  const Eigen::Matrix3d object_rotation =
+      principalAxes(detail::gatherPoints(*input_, *object));
   const std::vector<PartFit> fits = pcl_sq::fitParts(
       regions,
-      principalAxes(detail::gatherPoints(*input_, *object)),
+      object_rotation,
       [&](std::size_t part) {
         return detail::gatherPoints(*input_, clusters[part].indices);
       },

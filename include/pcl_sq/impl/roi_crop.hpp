@@ -3,6 +3,7 @@
 
 #include "pcl_sq/roi_crop.h"
 
+#include <pcl/common/eigen.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 
@@ -41,22 +42,40 @@ void RoiCrop<PointT>::setRegion(const RoiBox& region) {
 
 template <typename PointT>
 RoiBox RoiCrop<PointT>::getRegion() const {
-  return {this->getMin().template head<3>().template cast<double>(),
-          this->getMax().template head<3>().template cast<double>()};
+  const Eigen::Vector4f min_pt = this->getMin(), max_pt = this->getMax();
+  return {min_pt.template head<3>().template cast<double>(),
+          max_pt.template head<3>().template cast<double>()};
 }
 
+// pcl::CropBox itself takes NaN for a point inside of the box if the cloud claims to be
+// dense, and writes over the end of its list if there are more indices than points.
 template <typename PointT>
 void RoiCrop<PointT>::applyFilter(pcl::Indices& indices) {
-  // pcl::CropBox trusts is_dense and takes NaN for a point inside of the box
-  const pcl::IndicesPtr all = indices_;
-  pcl::IndicesPtr finite(new pcl::Indices);
-  finite->reserve(all->size());
-  for (const auto index : *all)
-    if (pcl::isXYZFinite((*input_)[static_cast<std::size_t>(index)]))
-      finite->push_back(index);
-  indices_ = finite;
-  pcl::CropBox<PointT>::applyFilter(indices);
-  indices_ = all;
+  indices.clear();
+  removed_indices_->clear();
+  const Eigen::Vector3f angles = this->getRotation();
+  const Eigen::Affine3f from_box =
+      pcl::getTransformation(0.0f, 0.0f, 0.0f, angles.x(), angles.y(), angles.z());
+  const Eigen::Affine3f to_box = from_box.inverse(Eigen::Isometry) *
+                                 Eigen::Translation3f(-this->getTranslation()) *
+                                 this->getTransform();
+  const bool is_identity = to_box.matrix().isIdentity(0.0f);
+  const Eigen::Vector4f min_pt = this->getMin(), max_pt = this->getMax();
+  const Eigen::Array3f low = min_pt.template head<3>(),
+                       high = max_pt.template head<3>();
+  for (const auto index : *indices_) {
+    const PointT& point = (*input_)[static_cast<std::size_t>(index)];
+    if (!pcl::isXYZFinite(point))
+      continue;
+    Eigen::Vector3f p(point.x, point.y, point.z);
+    if (!is_identity)
+      p = to_box * p;
+    const bool inside = (p.array() >= low).all() && (p.array() <= high).all();
+    if (inside != negative_)
+      indices.push_back(index);
+    else if (extract_removed_indices_)
+      removed_indices_->push_back(index);
+  }
 }
 
 } // namespace pcl_sq

@@ -6,6 +6,7 @@
 #include "pcl_sq/visualization/snapshot_options.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -88,8 +89,13 @@ public:
    * \throws pcl_sq::Exception as render(), or if the file cannot be written */
   void save(const std::string& path) const;
   /** \brief Writes \a count pictures around the upward axis: out.png gives out_000.png,
-   * out_001.png ... \return the names \throws pcl_sq::Exception as save() */
-  std::vector<std::string> saveTurntable(const std::string& path, int count) const;
+   * out_001.png ... \param[in] count number of pictures, [1, 1000] \param[in] progress
+   * called with the number of pictures done (optional) \return the names \throws
+   * pcl_sq::Exception as save() */
+  std::vector<std::string>
+  saveTurntable(const std::string& path,
+                int count,
+                const std::function<void(std::size_t)>& progress = {}) const;
 
 private:
   std::unique_ptr<SnapshotScene> scene_;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud_io.h"
+
+namespace pcl_sq {
+class SnapshotRenderer;
+}
+
+namespace pcl_sq::app {
+
+/** \brief Puts a cloud into a picture, in its own colours if it has any. */
+void addCloud(SnapshotRenderer& renderer, const LoadedCloud& input);
+
+} // namespace pcl_sq::app

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app.h"
+#include "files.h"
+#include "grasp_output.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace pcl_sq::app {
+
+namespace {
+
+std::string presetList() {
+  std::string list;
+  for (const std::string& name : Gripper::presetNames())
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+/** \brief A number of a TOML file. */
+double numberOf(const CLI::ConfigItem& item, const std::string& path) {
+  double number = 0.0;
+  if (item.inputs.size() != 1 || !CLI::detail::lexical_cast(item.inputs[0], number))
+    throw UsageError("'" + path + "': " + item.name + " is not a number");
+  return number;
+}
+
+Gripper gripperFromToml(const std::string& path) {
+  std::istringstream stream(readFile(path));
+  Gripper gripper;
+  gripper.name = path;
+  const std::map<std::string, double Gripper::*> sizes = {
+      {"min_opening", &Gripper::min_opening},
+      {"max_opening", &Gripper::max_opening},
+      {"finger_length", &Gripper::finger_length},
+      {"finger_width", &Gripper::finger_width},
+      {"finger_thickness", &Gripper::finger_thickness},
+      {"pad_length", &Gripper::pad_length},
+      {"palm_width", &Gripper::palm_width},
+      {"palm_depth", &Gripper::palm_depth},
+      {"palm_height", &Gripper::palm_height}};
+  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(stream)) {
+    if (item.name == "++" || item.name == "--") // a section begins or ends
+      continue;
+    const auto size = sizes.find(item.name);
+    if (size != sizes.end())
+      gripper.*size->second = numberOf(item, path);
+    else if (item.name == "fingers")
+      gripper.fingers = int(numberOf(item, path));
+    else if (item.name == "name" && item.inputs.size() == 1)
+      gripper.name = item.inputs[0];
+    else
+      throw UsageError("'" + path + "': '" + item.name + "' is no size of a gripper");
+  }
+  std::string why;
+  if (!gripper.isValid(&why))
+    throw UsageError("'" + path + "': " + why);
+  return gripper;
+}
+
+} // namespace
+
+GraspOptions::GraspOptions() {
+  planner.count = 10;
+  planner.wrench_quality = true;
+}
+
+Gripper readGripper(const std::string& preset_or_path) {
+  Gripper gripper;
+  if (Gripper::preset(preset_or_path, gripper))
+    return gripper;
+  if (extensionOf(preset_or_path) == ".toml")
+    return gripperFromToml(preset_or_path);
+  throw UsageError("there is no gripper '" + preset_or_path + "'; name one of " +
+                   presetList() + ", or a .toml file with the sizes");
+}
+
+void addGraspOptions(CLI::App& cli, GraspOptions& options) {
+  cli.add_option_function<std::string>(
+         "--gripper",
+         [&options](const std::string& name) { options.gripper = readGripper(name); },
+         "Hand: " + presetList() + ", or a TOML file with its sizes [m]")
+      ->type_name("NAME|FILE")
+      ->default_str(options.gripper.name);
+  cli.add_option("--friction",
+                 options.planner.friction,
+                 "Coefficient between finger and object, 0.05 to 2")
+      ->capture_default_str();
+  cli.add_option("--count", options.planner.count, "Most grasps to give")
+      ->capture_default_str();
+  cli.add_option("--table", options.table, "Table's plane, n.p + d = 0 [m]")
+      ->expected(4)
+      ->delimiter(',')
+      ->type_name("NX,NY,NZ,D");
+  cli.add_option("--viewpoint", options.viewpoint, "Camera's position [m]")
+      ->expected(3)
+      ->delimiter(',')
+      ->type_name("X,Y,Z");
+  cli.add_option("--clearance",
+                 options.planner.clearance,
+                 "Least distance of the hand to table and obstacles [m]")
+      ->capture_default_str();
+  cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
+      ->type_name("DIR");
+  cli.add_flag(
+      "--graspit-parts", options.part_bodies, "One more GraspIt! body for each part");
+#ifdef PCL_SQ_HAVE_VISUALIZATION
+  cli.add_option("--snapshot", options.snapshot, "Picture with the hand as PNG")
+      ->type_name("FILE");
+#endif
+}
+
+void checkGraspOptions(const GraspOptions& options) {
+  std::string why;
+  if (!options.planner.isValid(&why))
+    throw UsageError(why);
+  if (!options.table.empty() &&
+      !(Eigen::Map<const Eigen::Vector3d>(options.table.data()).norm() > 1e-9))
+    throw UsageError("--table needs a normal that is not zero");
+  for (const std::string& path : {options.output, options.snapshot})
+    if (!path.empty())
+      checkWritable(path);
+}
+
+GraspScene makeScene(const GraspOptions& options) {
+  GraspScene scene;
+  if (!options.table.empty()) {
+    const Eigen::Map<const Eigen::Vector3d> normal(options.table.data());
+    scene.has_table = true;
+    scene.table_normal = normal.normalized();
+    scene.table_offset = options.table[3] / normal.norm();
+  }
+  if (!options.viewpoint.empty()) {
+    scene.has_viewpoint = true;
+    scene.viewpoint = Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data());
+  }
+  return scene;
+}
+
+} // namespace pcl_sq::app

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Model and cloud in, picture out.
+#include "app.h"
+#include "cloud_picture.h"
+#include "files.h"
+
+#include "pcl_sq/model_io.h"
+#include "pcl_sq/visualization/snapshot_renderer.h"
+
+#include <cstdio>
+
+using namespace pcl_sq;
+
+namespace {
+
+const char* const DESCRIPTION =
+    "Takes a picture of a model (JSON of pcl_sq_fit), with or without its point cloud. "
+    "Works on machines without a display.";
+const char* const EXAMPLES =
+    "  pcl_sq_snapshot cup.json --cloud cup.pcd -o cup.png\n"
+    "  pcl_sq_snapshot cup.json --view camera --size 640x480 -o cup.png\n"
+    "  pcl_sq_snapshot cup.json --cloud cup.pcd --turntable 36 -o turn.png\n"
+    "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
+
+struct Arguments {
+  std::string model, cloud, output, size = "1280x960", view = "iso", up = "-y";
+  int turntable = 0;
+  SnapshotOptions options;
+};
+
+void parseSize(const std::string& text, SnapshotOptions& options) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &options.width, &options.height, &rest) !=
+      2)
+    throw app::UsageError("--size " + text + " is not of the form 1280x960.");
+}
+
+/** \brief An axis such as "-y", or three numbers such as "0,-0.8,-0.6". */
+Eigen::Vector3d parseUp(const std::string& text) {
+  const bool negative = text.size() == 2 && text[0] == '-';
+  if (text.size() == (negative ? 2u : 1u) && text.back() >= 'x' && text.back() <= 'z') {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(text.back() - 'x');
+    return negative ? Eigen::Vector3d(-axis) : axis;
+  }
+  Eigen::Vector3d up;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &up.x(), &up.y(), &up.z(), &rest) != 3)
+    throw app::UsageError("--up " + text +
+                          " is neither an axis (x, -x, y, ...) nor three numbers.");
+  return up;
+}
+
+void configure(CLI::App& cli, Arguments& a) {
+  cli.add_option("model", a.model, "Model file; may be left out if there is a cloud")
+      ->type_name("MODEL.json");
+  cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
+      ->type_name("FILE");
+  cli.add_option("-o,--output", a.output, "Picture, ends in .png")
+      ->type_name("FILE")
+      ->required();
+  cli.add_option("--size", a.size, "Width x height [px], 16 to 4096 each")
+      ->type_name("WxH")
+      ->capture_default_str();
+  cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
+      ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
+      ->capture_default_str();
+  cli.add_option("--up", a.up, "Upward axis of the cloud; cameras have y down")
+      ->type_name("x|-x|y|-y|z|-z|X,Y,Z")
+      ->capture_default_str();
+  cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  cli.add_option("--opacity", a.options.opacity, "Of the superquadrics")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("0..1")
+      ->capture_default_str();
+  cli.add_option("--context",
+                 a.options.context,
+                 "How far around the object the cloud is shown, in object sizes")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SIZES")
+      ->capture_default_str();
+  cli.add_option("--point-size", a.options.point_size, "[px]; 0: from the density")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("PX")
+      ->capture_default_str();
+  cli.add_option("--title", a.options.title, "Large text at the top");
+  cli.add_option("--caption", a.options.caption, "Small text under the title");
+}
+
+/** \brief What can be wrong with the command line as a whole. */
+void check(Arguments& a) {
+  if (a.model.empty() && a.cloud.empty())
+    throw app::UsageError("there is nothing to show; give a model, --cloud or both.");
+  parseSize(a.size, a.options);
+  a.options.up = parseUp(a.up);
+  std::string why;
+  if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
+    throw app::UsageError(why + ".");
+  if (app::extensionOf(a.output) != ".png")
+    throw app::UsageError("'" + a.output +
+                          "' does not end in .png, the one format of pictures.");
+  app::checkWritable(a.output);
+}
+
+int takePictures(const Arguments& a) {
+  SnapshotRenderer renderer(a.options);
+  if (!a.model.empty()) {
+    ModelFile file;
+    std::string why;
+    if (!fromJson(app::readFile(a.model), file, &why))
+      throw app::Failure("'" + a.model + "' is no model file: " + why);
+    renderer.addModel(file.model);
+  }
+  if (!a.cloud.empty())
+    app::addCloud(renderer, app::loadCloud(a.cloud));
+  if (a.turntable == 0) {
+    renderer.save(a.output);
+    return app::DONE;
+  }
+  app::Progress progress("turntable", static_cast<std::size_t>(a.turntable));
+  renderer.saveTurntable(
+      a.output, a.turntable, [&](std::size_t done) { progress.update(done); });
+  return app::DONE;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  return app::run(
+      argc,
+      argv,
+      "pcl_sq_snapshot",
+      DESCRIPTION,
+      EXAMPLES,
+      [&](CLI::App& cli) { configure(cli, arguments); },
+      [&] {
+        check(arguments);
+        return takePictures(arguments);
+      });
+}

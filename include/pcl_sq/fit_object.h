@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/multi_superquadric.h"
+#include "pcl_sq/object_view.h"
+
+namespace pcl_sq {
+
+/** \brief Settings of fitObject(). */
+struct PCL_SQ_EXPORTS ObjectFitOptions {
+  int max_parts = 6;         ///< largest number of parts that is looked for, [1, 16]
+  int parts = 0;             ///< number of parts; 0: found, [0, 16]
+  int silhouette_lines = 48; ///< per part, [8, 360]
+  SupportFitOptions fit;
+
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
+  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
+};
+
+/** \brief An object as a union of superquadrics. */
+struct ObjectFit {
+  MultiSuperquadric model;
+  std::vector<SupportFit> parts; ///< one per part of the model
+  std::vector<int> labels;       ///< part of each observed point, -1: none
+  double bic = 0.0;              ///< of the whole object
+  double single_bic = 0.0;       ///< of one superquadric
+};
+
+/** \brief Fits one superquadric, or as many as the data ask for.
+ * \return without parts if the points give none */
+PCL_SQ_EXPORTS ObjectFit fitObject(const ObservedObject& observed,
+                                   const ObjectFitOptions& options = {});
+
+} // namespace pcl_sq

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/silhouette.h"
+#include "pcl_sq/support_fit.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_sq {
+
+/** \brief A table: normal . p + offset = 0, the normal on the camera's side. */
+struct TableModel {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
+  double offset = 0.0;                               ///< [m]
+  double sigma = 1e-3; ///< standard deviation of its place below the object [m]
+  double noise = 1e-3; ///< root mean square distance of its points [m]
+  double height(const Eigen::Vector3d& p) const { return normal.dot(p) + offset; }
+};
+
+/** \brief What is known of the view besides the cloud. Everything is optional. */
+struct PCL_SQ_EXPORTS ViewOptions {
+  /** \brief Intrinsics of the camera the organized cloud comes from; without it they
+   * are found from the cloud itself. */
+  std::optional<PinholeCamera> camera;
+  /** \brief Pixels of the object and nothing else; empty: found in the depth. */
+  CellMask mask;
+  /** \brief The camera's place in the cloud's frame [m]. */
+  std::optional<Eigen::Vector3d> viewpoint;
+  std::optional<TableModel> table; ///< without it a table is looked for
+  bool find_table = true;          ///< whether one is looked for
+  double mask_sigma = 0.7;         ///< noise of the mask's outline [px], (0, 20]
+  double mask_dilation = 0.35;     ///< sigma of its unknown dilation [px], [0, 20]
+  /** \brief Side of the square of pixels that share their error [px], [1, 100]. */
+  double correlation = 7.0;
+
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
+  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
+};
+
+/** \brief Where the outline came from. */
+enum class OutlineSource {
+  NONE,  ///< points only
+  MASK,  ///< the user's mask
+  DEPTH, ///< jumps of the organized cloud's depth
+  POINTS ///< the bare points seen from the viewpoint
+};
+
+/** \brief The value's name, as it stands in the JSON. */
+PCL_SQ_EXPORTS const char* toString(OutlineSource source);
+
+/** \brief An object as one camera saw it: points, outline and table. */
+struct PCL_SQ_EXPORTS ObservedObject {
+  Eigen::Matrix3Xd points;  ///< to be fitted, free of rim and gross outliers [m]
+  std::vector<int> columns; ///< the points' columns in the input
+  PinholeCamera camera;     ///< real, or virtual for bare points
+  std::vector<ContourPoint> contour;
+  OutlineSource outline = OutlineSource::NONE;
+  double outline_sigma = 0.6;     ///< [px]
+  double outline_dilation = 0.35; ///< sigma [px]
+  double outline_offset = 0.0;    ///< expected dilation [px]
+  std::optional<TableModel> table;
+  double effective_points = 0.0;  ///< independent ones among the points
+  double depth = 1.0;             ///< of the object [m]
+  double extent = 0.0;            ///< half diagonal of the points' box [m]
+  CellMask pixels;                ///< the object's, of the real or virtual image
+  std::vector<std::string> notes; ///< fall-backs, one sentence each
+
+  bool hasCamera() const { return outline != OutlineSource::NONE; }
+  /** \brief The evidence for an outline: tangent planes and the table. */
+  SupportEvidence evidence(const std::vector<ContourPoint>& outline_points,
+                           int lines,
+                           bool on_table) const;
+};
+
+/** \brief Collects what one view of an object tells.
+ * \param[in] points 3 x (width height), row by row for an organized cloud
+ * \param[in] width, height of the organized cloud; height 1: bare points
+ * \param[in] object columns of the object; empty: all, or those under the mask
+ * \param[out] observed the object; emptied on failure
+ * \param[out] why the reason of a failure as a sentence (optional)
+ * \return false if the view contradicts the cloud (mask of another size, mask beside
+ * the object, too few points) */
+[[nodiscard]] PCL_SQ_EXPORTS bool observeObject(const Eigen::Matrix3Xf& points,
+                                                int width,
+                                                int height,
+                                                const std::vector<int>& object,
+                                                const ViewOptions& view,
+                                                ObservedObject& observed,
+                                                std::string* why = nullptr);
+
+/** \brief Intrinsics of an organized cloud in its camera's frame, by regression.
+ * \return false if the cloud is no pinhole image */
+[[nodiscard]] PCL_SQ_EXPORTS bool findIntrinsics(const Eigen::Matrix3Xf& points,
+                                                 int width,
+                                                 int height,
+                                                 PinholeCamera& camera);
+
+/** \brief Finds the object that stands on a table in an organized cloud: pixels above
+ * the table that hang together without a jump in depth, the largest such region that
+ * the image border does not cut.
+ * \param[in,out] table used if set, found otherwise
+ * \return false if there is no table or nothing stands on it */
+[[nodiscard]] PCL_SQ_EXPORTS bool findStandingObject(const Eigen::Matrix3Xf& points,
+                                                     int width,
+                                                     int height,
+                                                     std::optional<TableModel>& table,
+                                                     CellMask& object);
+
+/** \brief The largest plane among the points, repeatable.
+ * \param[in] inlier_distance [m]; 0: from the noise, about Z^2
+ * \return false if no plane holds a third of them */
+[[nodiscard]] PCL_SQ_EXPORTS bool findPlane(const std::vector<Eigen::Vector3d>& points,
+                                            const Eigen::Vector3d& viewpoint,
+                                            double inlier_distance,
+                                            TableModel& plane);
+
+} // namespace pcl_sq

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/exports.h"
+#include "pcl_sq/roi.h"
+
+#include <opencv2/core/mat.hpp>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <string>
+
+namespace pcl_sq {
+
+/** \brief How the object is told from its surroundings. */
+enum class SegmentMethod {
+  COLOR,  ///< histogram back-projection in HSV
+  GRABCUT ///< graph cut on colour models of object and background (Rother et al. 2004)
+};
+
+/** \brief Settings of ObjectSegmenter. */
+struct PCL_SQ_EXPORTS SegmenterOptions {
+  SegmentMethod method = SegmentMethod::GRABCUT;
+  int iterations = 4;      ///< of GrabCut, [1, 50]
+  double min_share = 2e-4; ///< smallest object as a share of the image, [0, 1)
+  double margin = 0.35; ///< background around the hint, in sides of its box, [0.05, 2]
+  double color_radius = 14; ///< tolerance of a seed colour in Lab, [1, 100]
+
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
+  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
+};
+
+/** \brief The object in the image. */
+struct Segment {
+  cv::Mat mask;   ///< CV_8U, 255 = object, size of the image
+  PixelRect rect; ///< its box
+};
+
+/** \brief Finds the object in the image (paper, II: "a color based segmentation process
+ * is used to identify the object") from a hint, or on its table without one.
+ *
+ * All methods return false, with a PCL_WARN that says why (also getFailure()), when
+ * there is nothing to find. Images are 8-bit, grey or BGR.
+ * \ingroup pcl_sq */
+class PCL_SQ_EXPORTS ObjectSegmenter {
+public:
+  /** \brief Sets all options; kept as they were, with a PCL_ERROR, if not valid. */
+  void setOptions(const SegmenterOptions& options);
+  const SegmenterOptions& getOptions() const { return options_; }
+
+  /** \brief The object in a box that holds it roughly. */
+  [[nodiscard]] bool
+  segmentBox(const cv::Mat& image, const PixelRect& box, Segment& segment);
+  /** \brief The object under a pixel. */
+  [[nodiscard]] bool segmentClick(const cv::Mat& image, int x, int y, Segment& segment);
+  /** \brief The largest patch of a colour. \param[in] red, green, blue 0 to 255 */
+  [[nodiscard]] bool
+  segmentColor(const cv::Mat& image, int red, int green, int blue, Segment& segment);
+  /** \brief The largest object that stands on the largest plane, found in the
+   * organized cloud and sharpened in the image. */
+  [[nodiscard]] bool segmentTabletop(const cv::Mat& image,
+                                     const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                     Segment& segment);
+
+  /** \brief Why the last call found nothing, a sentence; empty if it did not fail. */
+  const std::string& getFailure() const { return failure_; }
+
+private:
+  bool fail(const std::string& method, const std::string& why, Segment& segment);
+  bool finish(const std::string& method, cv::Mat mask, Segment& segment);
+
+  SegmenterOptions options_;
+  std::string failure_;
+};
+
+/** \brief Smallest box of the set pixels; empty if there is none. */
+PCL_SQ_EXPORTS PixelRect boundingRect(const cv::Mat& mask);
+
+} // namespace pcl_sq

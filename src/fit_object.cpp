@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One object, as few superquadrics as the data allow: split while it pays.
+#include "pcl_sq/fit_object.h"
+
+#include "object_piece.h"
+#include "option_check.h"
+
+#include <algorithm>
+
+namespace pcl_sq {
+
+namespace {
+
+using namespace detail;
+
+constexpr double MIN_GAIN = 10.0;   ///< of the score, for one more part
+constexpr double GOOD_FIT = 1.35;   ///< cost per observation of a part that needs no cut
+constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
+constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
+constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
+
+struct Split {
+  Piece first, second;
+  double score = 1e300;
+};
+
+double observations(const PieceContext& context, const Piece& piece) {
+  return context.observed.effective_points * double(piece.points.size()) /
+         double(context.observed.points.cols());
+}
+
+Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
+  Split s;
+  s.first = cutPiece(context, piece, cut);
+  s.second = cutPiece(context, piece, cut.flipped());
+  if (s.first.points.empty() || s.second.points.empty())
+    return s;
+  if (s.first.points.size() < s.second.points.size())
+    std::swap(s.first, s.second);
+  fitPiece(context, s.first, Effort::QUICK);
+  fitPiece(context, s.second, Effort::QUICK);
+  s.score = s.first.score + s.second.score;
+  return s;
+}
+
+/** \brief Axis that the second of two parts may share. */
+const Superquadric* axisOf(const Piece& piece) {
+  return piece.fit.chosen.shape == ShapeClass::ROTATIONAL ? &piece.fit.fit.model
+                                                          : nullptr;
+}
+
+void fitInFull(const PieceContext& context, Split& s) {
+  fitPiece(context, s.first, Effort::FULL);
+  fitPiece(context, s.second, Effort::FULL, axisOf(s.first));
+  s.score = s.first.score + s.second.score;
+  // the cut is only where the parts were looked for: the surfaces say what is whose
+  const int rounds = context.observed.hasCamera() ? 0 : ROUNDS; // the outline is cut, too
+  for (int round = 0; round < rounds; ++round) {
+    Split next = s;
+    const std::size_t changed = assignPoints(context, {&next.first, &next.second});
+    if (100 * changed < next.first.points.size() + next.second.points.size())
+      break;
+    fitPiece(context, next.first, Effort::AGAIN);
+    fitPiece(context, next.second, Effort::AGAIN, axisOf(next.first));
+    next.score = next.first.score + next.second.score;
+    if (!(next.score < s.score))
+      break;
+    s = next;
+  }
+}
+
+/** \brief The best way to cut a piece in two; score 1e300 if there is none. */
+Split bestSplit(const PieceContext& context, const Piece& piece) {
+  std::vector<Split> splits;
+  for (const Cut& cut : proposeCuts(context, piece)) {
+    Split s = split(context, piece, cut);
+    if (s.score < 1e299)
+      splits.push_back(std::move(s));
+  }
+  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
+    return a.score < b.score;
+  });
+  Split best;
+  for (std::size_t i = 0; i < splits.size() && i < TRIED; ++i) {
+    fitInFull(context, splits[i]);
+    if (splits[i].score < best.score)
+      best = splits[i];
+  }
+  return best;
+}
+
+/** \brief Merges pairs of parts while one explains them as well as two. */
+void mergeParts(const PieceContext& context, std::vector<Piece>& pieces, double min_gain) {
+  while (pieces.size() > 2) {
+    double best = -min_gain;
+    std::size_t first = 0, second = 0;
+    Piece chosen;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t j = i + 1; j < pieces.size(); ++j) {
+        Piece merged = mergePieces(pieces[i], pieces[j]);
+        fitPiece(context, merged, Effort::QUICK);
+        const double gain = pieces[i].score + pieces[j].score - merged.score;
+        if (gain > best) {
+          best = gain;
+          first = i;
+          second = j;
+          chosen = std::move(merged);
+        }
+      }
+    if (chosen.points.empty())
+      return;
+    fitPiece(context, chosen, Effort::FULL);
+    pieces[first] = std::move(chosen);
+    pieces.erase(pieces.begin() + std::ptrdiff_t(second));
+  }
+}
+
+} // namespace
+
+bool ObjectFitOptions::isValid(std::string* why) const {
+  OptionCheck check(why);
+  check.inRange("max_parts", max_parts, 1, 16);
+  check.inRange("parts", parts, 0, 16);
+  check.inRange("silhouette_lines", silhouette_lines, 8, 360);
+  check.inRange("noise", fit.noise, 0.0, 1e9);
+  return check.passed();
+}
+
+ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
+  ObjectFit fit;
+  const double noise =
+      options.fit.noise > 0.0 ? options.fit.noise : localNoise(observed.points);
+  PieceContext context{observed, options, 0.0};
+  std::vector<Piece> pieces(1, wholePiece(context));
+  fitPiece(context, pieces[0], Effort::FULL);
+  if (!pieces[0].fit.fit.ok())
+    return fit;
+  const double min_gain =
+      std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
+  const int wanted = options.parts > 0 ? options.parts : options.max_parts;
+  if (wanted > 1 && noise > 0.0) {
+    context.noise = std::min(noise, pieces[0].fit.noise);
+    fitPiece(context, pieces[0], Effort::FULL);
+    fit.single_bic = pieces[0].score;
+    while (int(pieces.size()) < wanted) {
+      Split best;
+      std::size_t which = 0;
+      double gain = options.parts > 0 ? -1e300 : min_gain;
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Piece& piece = pieces[i];
+        const bool good = piece.fit.chosen.cost <
+                          GOOD_FIT * observations(context, piece);
+        if (piece.final || (good && options.parts == 0))
+          continue;
+        Split s = bestSplit(context, piece);
+        if (piece.score - s.score > gain) {
+          gain = piece.score - s.score;
+          best = std::move(s);
+          which = i;
+        } else if (options.parts == 0)
+          piece.final = true;
+      }
+      if (best.score > 1e299)
+        break;
+      pieces[which] = best.first;
+      pieces.push_back(best.second);
+    }
+    if (options.parts == 0)
+      mergeParts(context, pieces, min_gain);
+  }
+  fit.labels.assign(std::size_t(observed.points.cols()), -1);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    fit.bic += pieces[k].score;
+    fit.model.parts.push_back(pieces[k].fit.fit.model);
+    fit.parts.push_back(std::move(pieces[k].fit));
+    for (const int i : pieces[k].points)
+      fit.labels[std::size_t(i)] = int(k);
+  }
+  return fit;
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "object_piece.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr Eigen::Index SAMPLES = 100;
+constexpr Eigen::Index MAX_POINTS = 3000;
+constexpr std::size_t NEIGHBOURS = 24;
+
+} // namespace
+
+double localNoise(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index n = points.cols();
+  if (n < Eigen::Index(2 * NEIGHBOURS))
+    return 0.0;
+  std::vector<double> deviations;
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
+  std::vector<std::pair<double, Eigen::Index>> near;
+  for (Eigen::Index i = 0; i < n; i += step) {
+    near.clear();
+    for (Eigen::Index k = 0; k < n; k += stride)
+      near.emplace_back((points.col(k) - points.col(i)).squaredNorm(), k);
+    std::nth_element(near.begin(), near.begin() + NEIGHBOURS, near.end());
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < NEIGHBOURS; ++k)
+      mean += points.col(near[k].second) / double(NEIGHBOURS);
+    for (std::size_t k = 0; k < NEIGHBOURS; ++k) {
+      const Eigen::Vector3d d = points.col(near[k].second) - mean;
+      square += d * d.transpose() / double(NEIGHBOURS - 3);
+    }
+    const double smallest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square, Eigen::EigenvaluesOnly)
+            .eigenvalues()[0];
+    deviations.push_back(std::sqrt(std::max(smallest, 0.0)));
+  }
+  const auto middle =
+      deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  return *middle;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "object_piece.h"
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t MIN_POINTS = 24;
+constexpr int QUICK_STARTS = 4;
+constexpr std::size_t PIXEL_SAMPLE = 4000;
+/** \brief How well a cut says where a part ends, over the part's size: parts overlap.
+ */
+constexpr double END_SIGMA = 0.25;
+
+Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = context.observed.points.col(columns[i]);
+  return points;
+}
+
+double halfDiagonal(const Eigen::Matrix3Xd& points) {
+  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
+/** \brief Whether a piece reaches the table: its lowest points are on it. */
+bool reachesTable(const PieceContext& context, const Eigen::Matrix3Xd& points) {
+  if (!context.observed.table)
+    return false;
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    heights.push_back(context.observed.table->height(points.col(i)));
+  const auto low =
+      heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
+  std::nth_element(heights.begin(), low, heights.end());
+  // the lowest visible points of a body lie somewhat above its bottom's far edge
+  return *low < 0.18 * context.observed.extent + 3.0 * context.noise;
+}
+
+} // namespace
+
+Piece wholePiece(const PieceContext& context) {
+  Piece piece;
+  for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)
+    piece.points.push_back(static_cast<int>(i));
+  piece.contour = context.observed.contour;
+  const CellMask& mask = context.observed.pixels;
+  const int step = std::max(
+      1, static_cast<int>(std::sqrt(double(mask.count()) / double(PIXEL_SAMPLE))));
+  for (int y = 0; y < mask.height; y += step)
+    for (int x = 0; x < mask.width; x += step)
+      if (mask.cells[mask.indexOf(x, y)])
+        piece.pixels.emplace_back(x, y);
+  if (context.observed.hasCamera() && piece.pixels.empty())
+    for (const ContourPoint& p : context.observed.contour)
+      piece.pixels.push_back(p.pixel);
+  return piece;
+}
+
+Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) {
+  Piece part;
+  const ObservedObject& o = context.observed;
+  for (const int i : piece.points)
+    if (cut.side(o.points.col(i)) > 0.0)
+      part.points.push_back(i);
+  if (part.points.size() < MIN_POINTS)
+    return {};
+  const auto inside = [&](const Eigen::Vector2d& pixel) {
+    return cut.normal.dot(o.camera.ray(pixel)) > 0.0;
+  };
+  if (o.hasCamera()) {
+    for (const ContourPoint& p : piece.contour)
+      if (inside(p.pixel))
+        part.contour.push_back(p);
+    const double near = 2.0 / std::sqrt(o.camera.fx * o.camera.fy);
+    for (const Eigen::Vector2d& p : piece.pixels) {
+      const double side = cut.normal.dot(o.camera.ray(p));
+      if (side <= 0.0)
+        continue;
+      part.pixels.push_back(p);
+      // where the object goes on beyond the cut, the piece has no outline
+      if (o.outline != OutlineSource::POINTS && side < near) {
+        ContourPoint foreign;
+        foreign.pixel = p;
+        foreign.own = false;
+        part.contour.push_back(foreign);
+      }
+    }
+  }
+  part.ends = piece.ends;
+  SupportPlane end;
+  end.normal = -cut.normal;
+  end.offset = -cut.offset;
+  end.sigma = END_SIGMA * halfDiagonal(gather(context, part.points));
+  part.ends.push_back(end);
+  return part;
+}
+
+void fitPiece(const PieceContext& context,
+              Piece& piece,
+              Effort effort,
+              const Superquadric* coaxial) {
+  const ObservedObject& o = context.observed;
+  const Eigen::Matrix3Xd points = gather(context, piece.points);
+  const double share = double(points.cols()) / double(o.points.cols());
+  SupportFitOptions options = context.options.fit;
+  options.noise = context.noise;
+  options.effective_points = std::max(12.0, share * o.effective_points);
+  options.max_semi_axis = 1.5 * halfDiagonal(points);
+  if (coaxial)
+    options.coaxial = *coaxial;
+  if (effort == Effort::QUICK) {
+    options.choose_shape = false;
+    options.starts = QUICK_STARTS;
+  }
+  if (effort == Effort::AGAIN && piece.fit.fit.ok())
+    options.start = piece.fit.fit.model;
+  SupportEvidence evidence = o.evidence(
+      piece.contour, context.options.silhouette_lines, reachesTable(context, points));
+  evidence.tangents.insert(
+      evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
+  piece.fit = fitWithSupports(points, evidence, options);
+  piece.score = 1e300;
+  if (piece.fit.fit.ok())
+    piece.score = piece.fit.chosen.cost +
+                  piece.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
+                  0.5 * double(evidence.silhouette.size());
+}
+
+std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces) {
+  std::vector<std::vector<int>> points(pieces.size());
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const int i : pieces[k]->points) {
+      const Eigen::Vector3d p = context.observed.points.col(i);
+      // the own piece keeps what noise cannot tell
+      std::size_t nearest = k;
+      double best =
+          std::abs(pieces[k]->fit.fit.model.footPointDistance(p)) - context.noise;
+      for (std::size_t j = 0; j < pieces.size(); ++j)
+        if (const double d = std::abs(pieces[j]->fit.fit.model.footPointDistance(p));
+            j != k && d < best) {
+          best = d;
+          nearest = j;
+        }
+      points[nearest].push_back(i);
+      changed += nearest != k;
+    }
+  for (const auto& list : points)
+    if (list.size() < MIN_POINTS)
+      return 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    pieces[k]->points.swap(points[k]);
+  return changed;
+}
+
+Piece mergePieces(const Piece& a, const Piece& b) {
+  Piece merged;
+  merged.points = a.points;
+  merged.points.insert(merged.points.end(), b.points.begin(), b.points.end());
+  merged.pixels = a.pixels;
+  merged.pixels.insert(merged.pixels.end(), b.pixels.begin(), b.pixels.end());
+  const auto add = [&merged](const Piece& from, const Piece& other) {
+    for (const ContourPoint& p : from.contour) {
+      const bool inner =
+          !p.own && std::any_of(other.pixels.begin(),
+                                other.pixels.end(),
+                                [&](const Eigen::Vector2d& q) {
+                                  return (q - p.pixel).squaredNorm() < 10.0;
+                                });
+      if (!inner)
+        merged.contour.push_back(p);
+    }
+  };
+  add(a, b);
+  add(b, a);
+  // an end that one of the two goes beyond is none
+  for (const Piece* from : {&a, &b})
+    for (const SupportPlane& end : from->ends) {
+      const Piece& other = from == &a ? b : a;
+      if (end.residual(other.fit.fit.model) < 0.5 * end.sigma)
+        merged.ends.push_back(end);
+    }
+  return merged;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. A piece of an object: its points, its part of the outline and its fit.
+#pragma once
+
+#include "pcl_sq/fit_object.h"
+
+namespace pcl_sq::detail {
+
+/** \brief A plane that separates two pieces; through the camera's centre where there is
+ * one, so that it is a line of the image as well. */
+struct Cut {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  double offset = 0.0;
+  double side(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
+  Cut flipped() const { return {-normal, -offset}; }
+};
+
+struct Piece {
+  std::vector<int> points; ///< columns of the observed object's points
+  std::vector<ContourPoint> contour;
+  std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
+  std::vector<SupportPlane> ends;      ///< where cuts end it, roughly
+  SupportFit fit;
+  double score = 1e300; ///< smaller is better; pieces add up
+  bool final = false;   ///< no cut improved it
+};
+
+/** \brief What all pieces of an object share. */
+struct PieceContext {
+  const ObservedObject& observed;
+  const ObjectFitOptions& options;
+  double noise; ///< of the points [m]
+};
+
+/** \brief The whole object as one piece. */
+Piece wholePiece(const PieceContext& context);
+
+/** \brief The part of a piece on the positive side of a cut; empty points if too small.
+ */
+Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut);
+
+/** \brief Where a piece may be cut: jumps of its width along its axes. */
+std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
+
+enum class Effort {
+  QUICK, ///< general shape, few starts
+  FULL,  ///< all shapes, all starts
+  AGAIN  ///< all shapes from the last fit
+};
+
+/** \brief Fits a piece and scores it.
+ * \param[in] coaxial another part whose axis it may share, or nullptr */
+void fitPiece(const PieceContext& context,
+              Piece& piece,
+              Effort effort,
+              const Superquadric* coaxial = nullptr);
+
+/** \brief Gives each point to the piece with the nearest surface. \return how many
+ * points changed their piece */
+std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces);
+
+/** \brief Two pieces as one; not fitted. */
+Piece mergePieces(const Piece& a, const Piece& b);
+
+/** \brief Noise of the points from their distance to their neighbours' planes [m]. */
+double localNoise(const Eigen::Matrix3Xd& points);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support_cost.h"
+
+namespace pcl_sq::detail {
+
+void SupportCost::operator()(const Superquadric& body, NormalEquations& e) const {
+  Vector11 slope = Vector11::Zero(); // derivatives of sum z u
+  double sum = 0.0, precision = 0.0;
+  for (const SupportPlane& plane : silhouette) {
+    const double weight = unit / plane.sigma;
+    const double z = weight * plane.residual(body);
+    const Vector11 row = weight * plane.jacobian(body);
+    e.addRow(row, z);
+    sum += z / plane.sigma;
+    precision += 1.0 / (plane.sigma * plane.sigma);
+    slope += row / plane.sigma;
+  }
+  if (dilation_sigma > 0.0 && precision > 0.0) {
+    precision += 1.0 / (dilation_sigma * dilation_sigma);
+    e.jtj.noalias() -= slope * slope.transpose() / precision;
+    e.jtr -= slope * (sum / precision);
+    e.cost -= sum * sum / precision;
+  }
+  for (const SupportPlane& plane : tangents) {
+    const double weight = unit / plane.sigma;
+    e.addRow(weight * plane.jacobian(body), weight * plane.residual(body));
+  }
+  for (const SupportPlane& plane : limits) {
+    const double residual = plane.residual(body);
+    const double weight = unit / plane.sigma;
+    if (residual > 0.0)
+      e.addRow(weight * plane.jacobian(body), weight * residual);
+  }
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/support_fit.h"
+
+#include "pcl_sq/multi_superquadric.h"
+#include "support_problem.h"
+
+#include <algorithm>
+
+namespace pcl_sq {
+
+namespace {
+
+using namespace detail;
+
+constexpr double START_SIGMA = 0.1; ///< in the points' standard deviation
+constexpr std::size_t KEPT = 3;     ///< starts that are refined
+
+bool cheaper(const Trial& a, const Trial& b) {
+  return a.cost < b.cost;
+}
+
+/** \brief Coarse fits of all starts, the best of them refined; sorted by cost. */
+std::vector<Trial> search(const SupportProblem& p, int& iterations) {
+  std::vector<Trial> trials;
+  std::vector<Superquadric> starts;
+  if (p.options().start)
+    starts.push_back(p.frame().toUnit(*p.options().start));
+  else
+    starts = supportStarts(p);
+  if (p.options().starts > 0 && starts.size() > std::size_t(p.options().starts))
+    starts.resize(std::size_t(p.options().starts));
+  const double wide = std::max(0.3 * START_SIGMA, 2.0 * p.noise());
+  for (const Superquadric& start : starts) {
+    Trial t;
+    t.model = start;
+    t.sigma = std::max(START_SIGMA, p.noise());
+    t = p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true);
+    t.sigma = wide;
+    trials.push_back(p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true));
+  }
+  std::sort(trials.begin(), trials.end(), cheaper);
+  if (trials.size() > KEPT)
+    trials.resize(KEPT);
+  double sigma = 1e300;
+  for (Trial& t : trials) {
+    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 8);
+    sigma = std::min(sigma, p.sigmaOf(t, p.medium()));
+  }
+  for (Trial& t : trials) { // compared at one sigma, or the widest would win
+    t.sigma = sigma;
+    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 12);
+    iterations += t.iterations;
+  }
+  std::sort(trials.begin(), trials.end(), cheaper);
+  const double again = p.sigmaOf(trials.front(), p.medium());
+  for (Trial& t : trials)
+    t.sigma = again;
+  return trials;
+}
+
+} // namespace
+
+const char* toString(ShapeClass shape) {
+  switch (shape) {
+  case ShapeClass::GENERIC:
+    return "generic";
+  case ShapeClass::ROTATIONAL:
+    return "rotational";
+  case ShapeClass::BOX:
+    return "box";
+  case ShapeClass::ELLIPSOID:
+    return "ellipsoid";
+  }
+  return "unknown";
+}
+
+SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                           const SupportEvidence& evidence,
+                           const SupportFitOptions& options) {
+  SupportFit result;
+  SupportProblem problem;
+  if (!problem.prepare(points, evidence, options)) {
+    result.fit.points = problem.all().size();
+    result.fit.termination = problem.all().size() > 0 ? Termination::TOO_FEW_POINTS
+                                                      : Termination::DEGENERATE;
+    return result;
+  }
+  const std::vector<Trial> general = search(problem, result.fit.iterations);
+  result.candidates = fitShapes(problem, general.front());
+  std::sort(
+      result.candidates.begin(),
+      result.candidates.end(),
+      [](const ShapeCandidate& a, const ShapeCandidate& b) { return a.bic < b.bic; });
+  for (ShapeCandidate& c : result.candidates)
+    c.model = problem.frame().toCloud(c.model);
+  result.chosen = result.candidates.front();
+  for (const ShapeCandidate& c : result.candidates)
+    if (c.shape != result.chosen.shape) {
+      result.margin = c.bic - result.chosen.bic;
+      break;
+    }
+  result.noise = general.front().sigma * problem.frame().scale;
+  FitSummary& fit = result.fit;
+  fit.model = result.chosen.model;
+  fit.termination = general.front().termination;
+  fit.points = problem.all().size();
+  fit.sigma = result.noise;
+  MultiSuperquadric single;
+  single.parts.push_back(fit.model);
+  fit.distortion = single.distortion(points);
+  fit.rms_distance = single.rmsDistance(points);
+  return result;
+}
+
+} // namespace pcl_sq

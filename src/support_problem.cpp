@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support_problem.h"
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t MIN_POINTS = 12;
+constexpr std::size_t COARSE_POINTS = 128, MEDIUM_POINTS = 512;
+constexpr int FEW_PLANES = 16;
+/** \brief Density of outliers over the Gaussian's peak: 3 sigma is the border. */
+constexpr double OUTLIER = 0.01;
+
+std::vector<SupportPlane> toUnit(std::vector<SupportPlane> planes, const UnitFrame& f) {
+  for (SupportPlane& p : planes) {
+    p.offset = (p.offset - p.normal.dot(f.origin)) / f.scale;
+    p.normal = f.axes.transpose() * p.normal;
+    p.sigma /= f.scale;
+  }
+  return planes;
+}
+
+} // namespace
+
+bool SupportProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                             const SupportEvidence& evidence,
+                             const SupportFitOptions& options) {
+  options_ = options;
+  if (!principalFrame(points, frame_))
+    return false;
+  all_ = detail::toUnit(points, frame_);
+  if (all_.size() < MIN_POINTS)
+    return false;
+  medium_ = subset(all_, MEDIUM_POINTS);
+  coarse_ = subset(medium_, COARSE_POINTS);
+  cost_.silhouette = toUnit(evidence.silhouette, frame_);
+  cost_.tangents = toUnit(evidence.tangents, frame_);
+  cost_.limits = toUnit(evidence.limits, frame_);
+  cost_.dilation_sigma = evidence.dilation_sigma / frame_.scale;
+  few_ = cost_;
+  const auto planes = static_cast<int>(cost_.silhouette.size());
+  const int stride = std::max(1, planes / FEW_PLANES);
+  few_.silhouette.clear();
+  for (int i = 0; i < planes; i += stride) {
+    few_.silhouette.push_back(cost_.silhouette[i]);
+    few_.silhouette.back().sigma /= std::sqrt(double(stride));
+  }
+  if (evidence.up) {
+    has_up_ = true;
+    up_ = (frame_.axes.transpose() * *evidence.up).normalized();
+  }
+  if (evidence.viewpoint) {
+    has_view_ = true;
+    view_ = -frame_.toUnit(*evidence.viewpoint).normalized();
+  }
+  noise_ = options.noise / frame_.scale;
+  if (options.max_semi_axis > 0.0)
+    max_axis_ = options.max_semi_axis / frame_.scale;
+  return true;
+}
+
+double SupportProblem::observations() const {
+  const double points = options_.effective_points > 0.0
+                            ? std::min(options_.effective_points, double(all_.size()))
+                            : double(all_.size());
+  return points + double(cost_.silhouette.size() + cost_.tangents.size());
+}
+
+Trial SupportProblem::minimise(const Trial& start,
+                               const UnitPoints& points,
+                               kernels::Residual residual,
+                               int iterations,
+                               const ParameterSpace& space,
+                               bool few_planes) const {
+  LmOptions o;
+  o.residual = residual;
+  o.max_iterations = iterations;
+  o.cost_tolerance = few_planes ? 1e-3 : 1e-5;
+  o.min_epsilon = options_.min_epsilon;
+  o.max_epsilon = options_.max_epsilon;
+  o.max_axis = max_axis_;
+  o.min_axis = 1e-3;
+  o.space = space;
+  o.sigma = start.sigma;
+  o.outlier = options_.robust ? OUTLIER : 0.0;
+  const double effective =
+      options_.effective_points > 0.0
+          ? std::min(options_.effective_points, double(all_.size()))
+          : double(all_.size());
+  SupportCost cost = few_planes ? few_ : cost_;
+  cost.unit = start.sigma * std::sqrt(double(points.size()) / effective);
+  if (!cost.empty())
+    o.contributor = std::cref(cost);
+  const LmResult r = levenbergMarquardt(points, start.model, o);
+  Trial t = start;
+  t.model = r.model;
+  t.cost = r.equations.cost / (cost.unit * cost.unit);
+  t.iterations += r.iterations;
+  t.termination = r.termination;
+  return t;
+}
+
+double SupportProblem::sigmaOf(const Trial& trial, const UnitPoints& points) const {
+  if (noise_ > 0.0)
+    return noise_;
+  LmOptions o;
+  o.residual = kernels::Residual::FOOT_POINT;
+  o.sigma = trial.sigma;
+  o.outlier = OUTLIER;
+  const NormalEquations e = normalEquations(points, trial.model, o);
+  return std::max(1e-4, std::sqrt(e.weighted / std::max(e.share, 1.0)));
+}
+
+} // namespace pcl_sq::detail

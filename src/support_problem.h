@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Points and planes in the frame the solver works in, and the fits over them.
+#pragma once
+
+#include "pcl_sq/support_fit.h"
+#include "support_cost.h"
+
+namespace pcl_sq::detail {
+
+/** \brief A superquadric on its way through the stages. */
+struct Trial {
+  Superquadric model;
+  double sigma = 0.1;  ///< of the points
+  double cost = 1e300; ///< of points and planes over sigma^2
+  int iterations = 0;
+  Termination termination = Termination::NOT_RUN;
+};
+
+/** \brief Everything in unit lengths. */
+class SupportProblem {
+public:
+  /** \brief \return false for too few or degenerate points */
+  bool prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+               const SupportEvidence& evidence,
+               const SupportFitOptions& options);
+
+  /** \brief Least squares from a start on the first \a count points with every
+   * \a stride-th silhouette plane. The points' sigma is that of the start. */
+  Trial minimise(const Trial& start,
+                 const UnitPoints& points,
+                 kernels::Residual residual,
+                 int iterations,
+                 const ParameterSpace& space = {},
+                 bool few_planes = false) const;
+  /** \brief The points' sigma at a trial; the given noise where it is known. */
+  double sigmaOf(const Trial& trial, const UnitPoints& points) const;
+
+  const UnitFrame& frame() const { return frame_; }
+  const UnitPoints& all() const { return all_; }
+  const UnitPoints& medium() const { return medium_; }
+  const UnitPoints& coarse() const { return coarse_; }
+  bool hasUp() const { return has_up_; }
+  bool hasView() const { return has_view_; }
+  const Eigen::Vector3d& up() const { return up_; }
+  const Eigen::Vector3d& view() const { return view_; }
+  double noise() const { return noise_; }
+  double observations() const;
+  const SupportFitOptions& options() const { return options_; }
+
+private:
+  SupportFitOptions options_;
+  UnitFrame frame_;
+  UnitPoints all_, medium_, coarse_;
+  SupportCost cost_, few_;
+  Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();   ///< unit length
+  Eigen::Vector3d view_ = Eigen::Vector3d::UnitZ(); ///< away from the camera
+  bool has_up_ = false, has_view_ = false;
+  double noise_ = 0.0;
+  double max_axis_ = 20.0;
+};
+
+/** \brief Starts of the search. */
+std::vector<Superquadric> supportStarts(const SupportProblem& problem);
+
+/** \brief All families from the best general fit. */
+std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
+                                      const Trial& general);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The families of superquadrics and their fits from a general one.
+#include "support_problem.h"
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr double BOX_EPSILON = 0.2;
+constexpr int ITERATIONS = 12;
+/** \brief Largest angle to the table's normal of an axis that may be upright. */
+constexpr double UPRIGHT = 0.35;
+
+/** \brief The same body with its axes permuted cyclically so that axis \a k is z. */
+Superquadric withAxis(const Superquadric& m, int k) {
+  Superquadric s = m;
+  for (int i = 0; i < 3; ++i) {
+    s.rotation.col(i) = m.rotation.col((i + k + 1) % 3);
+    s.semi_axes[i] = m.semi_axes[(i + k + 1) % 3];
+  }
+  if (k != 2)
+    std::swap(s.epsilon1, s.epsilon2);
+  return s;
+}
+
+/** \brief The dual description of the cross-section: turned by 45 degrees about z,
+ * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
+Superquadric dual(const Superquadric& m) {
+  Superquadric s = m;
+  const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
+  const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
+  const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
+  s.semi_axes[0] = s.semi_axes[1] =
+      factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+  s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
+  s.rotation *=
+      Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return s;
+}
+
+/** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
+Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up) {
+  Superquadric s = m;
+  const Eigen::Vector3d axis = m.rotation.col(k);
+  const Eigen::Vector3d target = axis.dot(up) < 0.0 ? Eigen::Vector3d(-up) : up;
+  s.rotation =
+      Eigen::Quaterniond::FromTwoVectors(axis, target).toRotationMatrix() * m.rotation;
+  return s;
+}
+
+/** \brief Takes the directions of the space out that turn any axis but \a k. */
+ParameterSpace standing(const ParameterSpace& space, int k) {
+  ParameterSpace reduced = space;
+  int columns = 0;
+  for (int c = 0; c < space.basis.cols(); ++c) {
+    const auto turn = space.basis.col(c).segment<3>(3);
+    if (turn.norm() == 0.0 || turn[k] != 0.0)
+      reduced.basis.col(columns++) = space.basis.col(c);
+  }
+  reduced.basis.conservativeResize(11, columns);
+  return reduced;
+}
+
+ParameterSpace spaceOf(ShapeClass shape) {
+  switch (shape) {
+  case ShapeClass::ROTATIONAL:
+    return ParameterSpace::rotational();
+  case ShapeClass::BOX:
+  case ShapeClass::ELLIPSOID:
+    return ParameterSpace::without(1U << 9 | 1U << 10);
+  case ShapeClass::GENERIC:
+    break;
+  }
+  return {};
+}
+
+void makeMember(Superquadric& m, ShapeClass shape) {
+  if (shape == ShapeClass::ROTATIONAL) {
+    m.semi_axes[0] = m.semi_axes[1] = std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+    m.epsilon2 = 1.0;
+  }
+  if (shape == ShapeClass::BOX)
+    m.epsilon1 = m.epsilon2 = BOX_EPSILON;
+  if (shape == ShapeClass::ELLIPSOID)
+    m.epsilon1 = m.epsilon2 = 1.0;
+}
+
+class Families {
+public:
+  Families(const SupportProblem& problem, double sigma)
+      : problem_(problem), sigma_(sigma) {}
+
+  void fit(ShapeClass shape, Superquadric start, int upright_axis) {
+    Trial t;
+    t.sigma = sigma_;
+    ParameterSpace space = spaceOf(shape);
+    if (upright_axis >= 0) {
+      start = upright(start, upright_axis, problem_.up());
+      space = standing(space, upright_axis);
+    }
+    makeMember(start, shape);
+    t.model = start;
+    run(shape, t, space, upright_axis >= 0, false);
+  }
+  void fitCoaxial(const Superquadric& other, const Superquadric& start) {
+    Trial t;
+    t.sigma = sigma_;
+    t.model = start;
+    t.model.rotation = other.rotation;
+    const Eigen::Vector3d axis = other.rotation.col(2);
+    t.model.center = other.center + axis * axis.dot(start.center - other.center);
+    int along;
+    (start.rotation.transpose() * axis).cwiseAbs().maxCoeff(&along);
+    const double a3 = start.semi_axes[along];
+    const double rest = std::sqrt(start.semi_axes.prod() / a3);
+    t.model.semi_axes = {rest, rest, a3};
+    t.model.epsilon1 = std::min(start.epsilon1, 1.0);
+    t.model.epsilon2 = 1.0;
+    ParameterSpace space = standing(ParameterSpace::rotational(), 2);
+    int columns = 0;
+    for (int c = 0; c < space.basis.cols(); ++c)
+      if (space.basis(0, c) == 0.0 && space.basis(1, c) == 0.0)
+        space.basis.col(columns++) = space.basis.col(c);
+    space.basis.conservativeResize(11, columns);
+    run(ShapeClass::ROTATIONAL, t, space, false, true);
+  }
+  std::vector<ShapeCandidate> take() { return std::move(candidates_); }
+
+private:
+  void run(ShapeClass shape,
+           const Trial& start,
+           const ParameterSpace& space,
+           bool is_upright,
+           bool on_axis) {
+    const Trial t = problem_.minimise(
+        start, problem_.medium(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
+    ShapeCandidate c;
+    c.shape = shape;
+    c.upright = is_upright;
+    c.on_axis = on_axis;
+    c.parameters = static_cast<int>(space.basis.cols());
+    c.cost = t.cost;
+    c.bic = t.cost + c.parameters * std::log(problem_.observations());
+    c.model = t.model;
+    for (ShapeCandidate& other : candidates_)
+      if (other.shape == c.shape && other.upright == c.upright &&
+          other.on_axis == c.on_axis) {
+        if (c.bic < other.bic)
+          other = c;
+        return;
+      }
+    candidates_.push_back(c);
+  }
+
+  const SupportProblem& problem_;
+  double sigma_;
+  std::vector<ShapeCandidate> candidates_;
+};
+
+
+/** \brief The best of a model's other descriptions: exponents exchanged, the dual. */
+Trial bestDescription(const SupportProblem& problem, Trial best) {
+  for (int round = 0; round < 2; ++round) {
+    Trial next = best;
+    for (const Superquadric& m : {dual(best.model),
+                                  withAxis(best.model, 0),
+                                  withAxis(best.model, 1),
+                                  dual(withAxis(best.model, 0)),
+                                  dual(withAxis(best.model, 1))}) {
+      Trial t = best;
+      t.model = m;
+      t = problem.minimise(t, problem.medium(), kernels::Residual::FOOT_POINT, 6);
+      if (t.cost < next.cost)
+        next = t;
+    }
+    const bool settled = next.cost > best.cost - 1.0;
+    best = next;
+    if (settled)
+      break;
+  }
+  return best;
+}
+
+} // namespace
+
+std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem, const Trial& first) {
+  const bool choose = problem.options().choose_shape;
+  const Trial general = choose ? bestDescription(problem, first) : first;
+  Families families(problem, general.sigma);
+  const Superquadric& m = general.model;
+  families.fit(ShapeClass::GENERIC, m, -1);
+  if (!choose)
+    return families.take();
+  int standing_axis = -1;
+  if (problem.hasUp()) {
+    const double cosine =
+        (m.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&standing_axis);
+    if (cosine < std::cos(UPRIGHT))
+      standing_axis = -1;
+  }
+  for (int k = 0; k < 3; ++k) {
+    families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), -1);
+    if (k == standing_axis)
+      families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), 2);
+  }
+  families.fit(ShapeClass::BOX, m, -1);
+  families.fit(ShapeClass::ELLIPSOID, m, -1);
+  if (standing_axis >= 0) {
+    families.fit(ShapeClass::GENERIC, m, standing_axis);
+    families.fit(ShapeClass::BOX, m, standing_axis);
+    families.fit(ShapeClass::ELLIPSOID, m, standing_axis);
+  }
+  if (problem.options().coaxial)
+    families.fitCoaxial(problem.frame().toUnit(*problem.options().coaxial), m);
+  return families.take();
+}
+
+} // namespace pcl_sq::detail
