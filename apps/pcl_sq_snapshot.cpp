@@ -58,7 +58,7 @@ void configure(CLI::App& cli, Arguments& a) {
   cli.add_option("-o,--output", a.output, "Picture, ends in .png")
       ->type_name("FILE")
       ->required();
-  cli.add_option("--size", a.size, "Width x height [px], 16 to 8192 each")
+  cli.add_option("--size", a.size, "Width x height [px], 16 to 4096 each")
       ->type_name("WxH")
       ->capture_default_str();
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")

@@ -103,5 +103,8 @@ int main(int argc, char** argv) {
     std::cerr << "Could not write " << argv[1] << ".\n";
     return 1;
   }
+  for (const Superquadric& part : object.parts)
+    std::cout << "true size " << 2000.0 * part.semi_axes.transpose()
+              << " mm, exponents " << part.epsilon1 << ' ' << part.epsilon2 << '\n';
   return 0;
 }

@@ -25,7 +25,7 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr jarOnTable() {
         cloud->push_back(pcl::PointXYZ(
             radius * std::cos(angle), y, 1.0F + radius * std::sin(angle)));
   };
-  addWall(0.05F, -0.03F, 0.1F);    // the jar
+  addWall(0.05F, -0.03F, 0.1F);   // the jar
   addWall(0.04F, -0.08F, -0.03F); // its neck
   return cloud;
 }

@@ -234,12 +234,13 @@ double ClosingLines::robustness(const Eigen::Vector3d& point,
                                 std::size_t part) const {
   const Eigen::Vector3d first = across(outward, object_.parts[part].rotation);
   const Eigen::Vector3d second = outward.cross(first);
-  const Eigen::Vector3d depth = options_.shift * options_.friction * outward;
   int found = 0;
-  for (const Eigen::Vector3d& side : {first, second})
-    for (const double sign : {-1.0, 1.0})
-      found += contains(point - depth + sign * options_.shift * side, part);
-  return found / 4.0;
+  for (const double shift : {options_.shift, 2.0 * options_.shift})
+    for (const Eigen::Vector3d& side : {first, second})
+      for (const double sign : {-1.0, 1.0})
+        found +=
+            contains(point + shift * (sign * side - options_.friction * outward), part);
+  return found / 8.0;
 }
 
 double ClosingLines::robustness(const ClosingLine& line) const {

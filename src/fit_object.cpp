@@ -13,8 +13,8 @@ namespace {
 
 using namespace detail;
 
-constexpr double MIN_GAIN = 10.0;   ///< of the score, for one more part
-constexpr double GOOD_FIT = 1.35;   ///< cost per observation of a part that needs no cut
+constexpr double MIN_GAIN = 10.0; ///< of the score, for one more part
+constexpr double GOOD_FIT = 1.35; ///< cost per observation of a part that needs no cut
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
 constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
@@ -54,7 +54,8 @@ void fitInFull(const PieceContext& context, Split& s) {
   fitPiece(context, s.second, Effort::FULL, axisOf(s.first));
   s.score = s.first.score + s.second.score;
   // the cut is only where the parts were looked for: the surfaces say what is whose
-  const int rounds = context.observed.hasCamera() ? 0 : ROUNDS; // the outline is cut, too
+  const int rounds =
+      context.observed.hasCamera() ? 0 : ROUNDS; // the outline is cut, too
   for (int round = 0; round < rounds; ++round) {
     Split next = s;
     const std::size_t changed = assignPoints(context, {&next.first, &next.second});
@@ -90,7 +91,9 @@ Split bestSplit(const PieceContext& context, const Piece& piece) {
 }
 
 /** \brief Merges pairs of parts while one explains them as well as two. */
-void mergeParts(const PieceContext& context, std::vector<Piece>& pieces, double min_gain) {
+void mergeParts(const PieceContext& context,
+                std::vector<Piece>& pieces,
+                double min_gain) {
   while (pieces.size() > 2) {
     double best = -min_gain;
     std::size_t first = 0, second = 0;
@@ -135,8 +138,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   fitPiece(context, pieces[0], Effort::FULL);
   if (!pieces[0].fit.fit.ok())
     return fit;
-  const double min_gain =
-      std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
+  const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
   if (wanted > 1 && noise > 0.0) {
     context.noise = std::min(noise, pieces[0].fit.noise);
@@ -148,8 +150,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       double gain = options.parts > 0 ? -1e300 : min_gain;
       for (std::size_t i = 0; i < pieces.size(); ++i) {
         Piece& piece = pieces[i];
-        const bool good = piece.fit.chosen.cost <
-                          GOOD_FIT * observations(context, piece);
+        const bool good =
+            piece.fit.chosen.cost < GOOD_FIT * observations(context, piece);
         if (piece.final || (good && options.parts == 0))
           continue;
         Split s = bestSplit(context, piece);

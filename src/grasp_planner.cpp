@@ -56,6 +56,7 @@ bool GraspPlannerOptions::isValid(std::string* why) const {
   for (const double length : {clearance,
                               compliance,
                               opening,
+                              margin,
                               retreat,
                               shift,
                               min_distance,
@@ -64,6 +65,8 @@ bool GraspPlannerOptions::isValid(std::string* why) const {
                               torsional_friction})
     if (!within(length, 0.0, 1.0))
       return fail("a length is outside [0, 1] m");
+  if (opening <= 0.0)
+    return fail("opening is not positive");
   if (min_distance <= 0.0 || !within(min_angle, 1e-3, 3.2))
     return fail("min_distance or min_angle is not positive");
   if (observed_distance <= 0.0)
@@ -123,6 +126,18 @@ void GraspSearch::finish(GraspPlan& plan) const {
       plan.grasps.begin(), plan.grasps.end(), [](const Grasp& a, const Grasp& b) {
         return a.scores.total > b.scores.total;
       });
+  if (!options_.wrench_quality)
+    return;
+  WrenchOptions wrench;
+  wrench.friction = options_.friction;
+  wrench.torsional_friction = options_.torsional_friction;
+  wrench.origin = centre_;
+  wrench.torque_length = radius_;
+  for (Grasp& grasp : plan.grasps) {
+    const WrenchQuality quality = wrenchQuality(grasp.contacts, wrench);
+    grasp.epsilon = quality.epsilon;
+    grasp.volume = quality.volume;
+  }
 }
 
 std::string

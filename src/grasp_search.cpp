@@ -11,8 +11,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double GOOD_CLEARANCE = 0.03;  ///< table distance that scores 1 [m]
-constexpr double GOOD_OPENING = 0.02;    ///< spare opening that scores 1 [m]
+constexpr double GOOD_CLEARANCE = 0.03;         ///< table distance that scores 1 [m]
+constexpr double GOOD_OPENING = 0.02;           ///< spare opening that scores 1 [m]
+constexpr double OPENINGS[] = {1.0, 1.0 / 3.0}; ///< of the gap asked for
 constexpr double SLIDES[] = {0.0, 0.35}; ///< of the pad, contacts towards the tip
 
 /** \brief Counts an obstruction and hands it on. */
@@ -103,6 +104,9 @@ void GraspSearch::scorePose(Grasp& grasp, double table_clearance) const {
   GraspScores& s = grasp.scores;
   s.clearance =
       scene_.has_table ? std::clamp(table_clearance / GOOD_CLEARANCE, 0.0, 1.0) : 1.0;
+  if (grasp.open_width > 0.0)
+    s.opening =
+        std::min(0.5 * (grasp.open_width - grasp.width) / options_.opening, 1.0);
   s.approach = scene_.has_table || scene_.has_viewpoint
                    ? 0.5 * (1.0 + grasp.approach().dot(favoured_))
                    : 1.0;
@@ -139,8 +143,8 @@ bool GraspSearch::isNew(const Grasp& grasp,
   return true;
 }
 
-double GraspSearch::opening(const Grasp& grasp) const {
-  return std::min(options_.opening, 0.5 * (gripper_.max_opening - grasp.width));
+double GraspSearch::opening(const Grasp& grasp, double share) const {
+  return std::min(share * options_.opening, 0.5 * (gripper_.max_opening - grasp.width));
 }
 
 Grasp GraspSearch::slid(const Grasp& grasp, double slide) const {
@@ -156,20 +160,42 @@ double GraspSearch::bestTableClearance(const Grasp& grasp) const {
   const double rise = -grasp.approach().dot(scene_.table_normal);
   const double back =
       rise > 0.0 ? *std::max_element(std::begin(SLIDES), std::end(SLIDES)) : 0.0;
-  return collision_.tableClearance(collision_.boxes(grasp, opening(grasp))) +
+  return collision_.tableClearance(collision_.boxes(grasp, opening(grasp, 1.0))) +
          back * gripper_.pad_length * rise;
+}
+
+Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
+  std::vector<OrientedBox> boxes = collision_.boxes(grasp, opening(grasp, 1.0));
+  table = collision_.tableClearance(boxes);
+  if (table < options_.clearance)
+    return Obstruction::TABLE;
+  const Obstruction palm = collision_.test(boxes.back(), options_.margin);
+  if (palm != Obstruction::NONE)
+    return palm;
+  Obstruction found = Obstruction::NONE;
+  for (const double share : OPENINGS) {
+    if (found != Obstruction::NONE)
+      boxes = collision_.boxes(grasp, opening(grasp, share));
+    boxes.pop_back();
+    found = Obstruction::NONE;
+    for (const OrientedBox& finger : boxes)
+      if (found == Obstruction::NONE)
+        found = collision_.test(finger, 0.0);
+    if (found == Obstruction::NONE) {
+      grasp.open_width = grasp.width + 2.0 * opening(grasp, share);
+      break;
+    }
+  }
+  return found;
 }
 
 bool GraspSearch::place(Grasp& grasp, GraspPlan& plan) {
   Obstruction first = Obstruction::NONE;
   for (const double slide : SLIDES) {
-    const Grasp moved = slid(grasp, slide);
-    const std::vector<OrientedBox> boxes = collision_.boxes(moved, opening(grasp));
-    const double table = collision_.tableClearance(boxes);
+    Grasp moved = slid(grasp, slide);
+    double table = 1.0;
     ++plan.rejections.poses;
-    const Obstruction found = counted(
-        plan.rejections,
-        table < options_.clearance ? Obstruction::TABLE : collision_.test(boxes));
+    const Obstruction found = counted(plan.rejections, tryPose(moved, table));
     if (found == Obstruction::NONE) {
       grasp = moved;
       scorePose(grasp, table);

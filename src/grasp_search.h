@@ -51,8 +51,12 @@ private:
   void scoreContacts(Grasp& grasp, double slope, double robustness) const;
   void scorePose(Grasp& grasp, double table_clearance) const;
   double total(const GraspScores& scores) const;
-  /** \brief Gap on each side of the object while approaching [m]. */
-  double opening(const Grasp& grasp) const;
+  /** \brief Gap on each side of the object while approaching [m], for a share of the
+   * one asked for. */
+  double opening(const Grasp& grasp, double share) const;
+  /** \brief Tests the hand where it is, opened wide or else less; sets open_width.
+   * \param[out] table clearance of the table [m] */
+  Obstruction tryPose(Grasp& grasp, double& table) const;
   /** \brief The hand drawn back so that the contacts lie nearer to the fingertips. */
   Grasp slid(const Grasp& grasp, double slide) const;
   double bestTableClearance(const Grasp& grasp) const;

@@ -87,7 +87,7 @@ std::string numberText(double number) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(9);
-  text << number;
+  text << (std::abs(number) < 1e-9 ? 0.0 : number); // no 1e-17, no -0
   return text.str();
 }
 

@@ -73,20 +73,15 @@ double HandCollision::tableClearance(const std::vector<OrientedBox>& boxes) cons
   return lowest;
 }
 
-Obstruction HandCollision::test(const std::vector<OrientedBox>& boxes) const {
-  // the palm first: it is in the way most often
-  for (auto box = boxes.rbegin(); box != boxes.rend(); ++box)
-    for (const Superquadric& part : object_.parts)
-      if (collides(*box, part))
-        return Obstruction::OBJECT;
-  for (const OrientedBox& box : boxes)
-    for (const Superquadric& other : scene_.obstacles.parts)
-      if (collides(box, other, options_.clearance))
-        return Obstruction::OBSTACLE;
-  for (const OrientedBox& box : boxes)
-    if (obstacles_.anyIn(box, options_.clearance))
-      return Obstruction::CLOUD;
-  return Obstruction::NONE;
+Obstruction HandCollision::test(const OrientedBox& box, double margin) const {
+  for (const Superquadric& part : object_.parts)
+    if (collides(box, part, margin))
+      return Obstruction::OBJECT;
+  for (const Superquadric& other : scene_.obstacles.parts)
+    if (collides(box, other, options_.clearance))
+      return Obstruction::OBSTACLE;
+  return obstacles_.anyIn(box, options_.clearance) ? Obstruction::CLOUD
+                                                   : Obstruction::NONE;
 }
 
 double HandCollision::observed(const GraspContact& contact) const {

@@ -18,12 +18,13 @@ public:
                 const GraspPlannerOptions& options);
 
   /** \brief The hand's boxes of a grasp while it approaches, closes from \a opening on
-   * each side and holds. */
+   * each side and holds: fingers, then the palm. */
   std::vector<OrientedBox> boxes(const Grasp& grasp, double opening) const;
   /** \brief Least distance of the boxes to the table's plane [m], 1 m without one. */
   double tableClearance(const std::vector<OrientedBox>& boxes) const;
-  /** \brief First thing the boxes run into but for the table. */
-  Obstruction test(const std::vector<OrientedBox>& boxes) const;
+  /** \brief First thing a box runs into but for the table. \param[in] margin least
+   * distance to the object [m] */
+  Obstruction test(const OrientedBox& box, double margin) const;
 
   /** \brief Share of a contact that the sensor saw, GraspContact::observed. */
   double observed(const GraspContact& contact) const;

@@ -57,7 +57,8 @@ void fitPiece(const PieceContext& context,
 
 /** \brief Gives each point to the piece with the nearest surface. \return how many
  * points changed their piece */
-std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces);
+std::size_t assignPoints(const PieceContext& context,
+                         const std::vector<Piece*>& pieces);
 
 /** \brief Two pieces as one; not fitted. */
 Piece mergePieces(const Piece& a, const Piece& b);

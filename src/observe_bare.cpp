@@ -27,12 +27,14 @@ void dropLonely(const Observation& o, std::vector<int>& columns) {
   for (std::size_t i = 0; i < n; ++i) {
     near.clear();
     for (std::size_t k = 0; k < n; k += stride)
-      near.push_back((o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
+      near.push_back(
+          (o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
     std::nth_element(near.begin(), near.begin() + NEIGHBOUR, near.end());
     distance[i] = std::sqrt(near[NEIGHBOUR]);
   }
   std::vector<float> sorted = distance;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
+  std::nth_element(
+      sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
   const double limit = LONELY * double(sorted[n / 2]);
   std::vector<int> kept;
   for (std::size_t i = 0; i < n; ++i)
@@ -73,7 +75,8 @@ bool observeBare(Observation& o, std::string& why) {
   const Eigen::Vector3d mean = out.points.rowwise().mean();
   const double distance = (mean - *o.view.viewpoint).norm();
   if (!(distance > 0.5 * out.extent)) {
-    out.notes.push_back("the viewpoint lies inside the object; its outline is not used");
+    out.notes.push_back(
+        "the viewpoint lies inside the object; its outline is not used");
     return true;
   }
   out.camera = PinholeCamera::lookingAt(*o.view.viewpoint, mean, 500.0);

@@ -30,8 +30,7 @@ Superquadric dual(const Superquadric& m) {
   const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
   const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
   const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
-  s.semi_axes[0] = s.semi_axes[1] =
-      factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
   s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
   s.rotation *=
       Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -157,7 +156,6 @@ private:
   std::vector<ShapeCandidate> candidates_;
 };
 
-
 /** \brief The best of a model's other descriptions: exponents exchanged, the dual. */
 Trial bestDescription(const SupportProblem& problem, Trial best) {
   for (int round = 0; round < 2; ++round) {
@@ -183,7 +181,8 @@ Trial bestDescription(const SupportProblem& problem, Trial best) {
 
 } // namespace
 
-std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem, const Trial& first) {
+std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
+                                      const Trial& first) {
   const bool choose = problem.options().choose_shape;
   const Trial general = choose ? bestDescription(problem, first) : first;
   Families families(problem, general.sigma);

@@ -70,6 +70,7 @@ Json toJson(const Grasp& grasp) {
           {"approach", toJson(grasp.approach())},
           {"closing", toJson(grasp.closing())},
           {"width", grasp.width},
+          {"open_width", grasp.open_width},
           {"contacts", contacts},
           {"scores", toJson(grasp.scores)},
           {"epsilon", grasp.epsilon},
@@ -141,9 +142,12 @@ void writeSnapshot(const MultiSuperquadric& model,
     reach.push_back(options.gripper.fingerDirection(best.rotation, i)
                         .dot(contacts.col(i) - best.position));
   }
-  for (const OrientedBox& box :
-       options.gripper.boxes(best.position, best.rotation, reach))
-    renderer.addMesh(meshBox(box), {70, 75, 85}, 0.85);
+  std::vector<OrientedBox> hand =
+      options.gripper.boxes(best.position, best.rotation, reach);
+  renderer.addMesh(meshBox(hand.back()), {150, 155, 165}, 0.3);
+  hand.pop_back();
+  for (const OrientedBox& finger : hand)
+    renderer.addMesh(meshBox(finger), {110, 115, 125}, 0.8);
   Eigen::Matrix3Xd forks(3, 0);
   for (std::size_t i = 1; i < std::min(plan.grasps.size(), SHOWN + 1); ++i)
     addFork(plan.grasps[i], options.gripper, forks);

@@ -222,6 +222,7 @@ struct Selection {
   pcl::IndicesPtr indices = pcl::make_shared<pcl::Indices>();
   bool has_region = false;
   RoiBox region;
+  std::optional<TablePlane> table; ///< where the plane was removed
 };
 
 pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
@@ -259,6 +260,7 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
       tabletop.setCandidates(pointsInImage(cloud, rect));
     if (!tabletop.segment(*selection.indices))
       throw Failure(tabletop.getFailure() + ".");
+    selection.table = tabletop.getPlane();
   } else if (!rect.empty()) {
     RoiEstimator<Point> estimator;
     estimator.setInputCloud(input.cloud);
@@ -360,6 +362,10 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  if (selection.table)
+    result.up = selection.table->normal;
+  else if (result.report.view.table)
+    result.up = result.report.view.table->normal;
 
   ModelFile& file = result.file;
   file.model = model;

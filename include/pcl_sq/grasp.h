@@ -42,6 +42,7 @@ struct PCL_SQ_EXPORTS Grasp {
   std::vector<GraspContact> contacts; ///< one per finger
   double width = 0.0; ///< distance of the pads when closed [m]; of three fingers twice
                       ///< the largest distance of a contact from the hand's axis
+  double open_width = 0.0; ///< the same while the hand approaches [m]
   GraspScores scores;
   double epsilon = 0.0; ///< Ferrari-Canny; 0 unless the planner was asked for it
   double volume = 0.0;  ///< of the grasp wrench space; 0 unless asked for

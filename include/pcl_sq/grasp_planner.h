@@ -19,22 +19,24 @@ struct GraspWeights {
 
 /** \brief Settings of the GraspPlanner. */
 struct PCL_SQ_EXPORTS GraspPlannerOptions {
-  std::size_t count = 100;     ///< most grasps to return, [1, 10000]
-  double friction = 0.5;       ///< coefficient between finger and object, [0.05, 2]
-  int surface_samples = 3;     ///< rows of samples in an eighth of a face, [1, 20]
-  int approaches = 12;         ///< directions tried about a closing line, [1, 72]
-  double clearance = 0.002;    ///< least distance of hand to table and obstacles [m]
-  double compliance = 0.002;   ///< how far the object may press into the pads [m]
-  double opening = 0.005;      ///< gap on each side of the object while approaching [m]
-  double retreat = 0.10;       ///< straight approach kept free of collision [m]
-  double shift = 0.004;        ///< of the lines in GraspScores::robustness [m]
-  double min_distance = 0.015; ///< between tool centre points of grasps told apart
-                               ///< by neither direction [m]
-  double min_angle = 0.35;     ///< between their directions [rad]
-  double cloud_tolerance = 0.010;    ///< points nearer to the model belong to it [m]
-  double observed_distance = 0.006;  ///< of a point that makes a contact observed [m]
-  int min_obstacle_points = 3;       ///< in a cube of 5 mm, fewer are noise, [1, 1000]
-  bool wrench_quality = false;       ///< compute Grasp::epsilon and volume (slow)
+  std::size_t count = 100;   ///< most grasps to return, [1, 10000]
+  double friction = 0.5;     ///< coefficient between finger and object, [0.05, 2]
+  int surface_samples = 3;   ///< rows of samples in an eighth of a face, [1, 20]
+  int approaches = 12;       ///< directions tried about a closing line, [1, 72]
+  double clearance = 0.002;  ///< least distance of hand to table and obstacles [m]
+  double compliance = 0.002; ///< how far the object may press into the pads [m]
+  double opening = 0.015;    ///< gap on each side of the object while approaching; a
+                             ///< third of it where that is not free [m]
+  double margin = 0.003;     ///< least distance of the palm to the object [m]
+  double retreat = 0.10;     ///< straight approach kept free of collision [m]
+  double shift = 0.004; ///< of the lines in GraspScores::robustness, once and twice [m]
+  double min_distance = 0.015;      ///< between tool centre points of grasps told apart
+                                    ///< by neither direction [m]
+  double min_angle = 0.35;          ///< between their directions [rad]
+  double cloud_tolerance = 0.010;   ///< points nearer to the model belong to it [m]
+  double observed_distance = 0.006; ///< of a point that makes a contact observed [m]
+  int min_obstacle_points = 3;      ///< in a cube of 5 mm, fewer are noise, [1, 1000]
+  bool wrench_quality = false;      ///< compute Grasp::epsilon and volume (slow)
   double torsional_friction = 0.005; ///< torque over normal force of a pad [m], >= 0
   GraspWeights weights;
 

@@ -170,6 +170,8 @@ void Stage::addPart(const Superquadric& part,
   renderer_->AddActor(actor);
 
   // the outline strong, edges finer, those of the far side only hinted at
+  const double unit =
+      std::max(0.6, std::min(camera_.width(), camera_.height()) / 960.0);
   const Color ink = strongerOn(options.background, color);
   std::vector<Eigen::Vector3d> near_edges, far_edges;
   for (const auto& edge : surface.edges)
@@ -181,9 +183,9 @@ void Stage::addPart(const Superquadric& part,
       ends.push_back(surface.vertices[a]);
       ends.push_back(surface.vertices[b]);
     }
-  addSegments(lifted(outline(surface, to_eye)), ink, 2.2);
-  addSegments(lifted(near_edges), ink, 1.4);
-  addSegments(lifted(far_edges), mix(ink, color, 0.5), 1.0);
+  addSegments(lifted(outline(surface, to_eye)), ink, 2.2 * unit);
+  addSegments(lifted(near_edges), ink, 1.4 * unit);
+  addSegments(lifted(far_edges), mix(ink, color, 0.5), 1.0 * unit);
 }
 
 /** \brief Points a little closer to the eye than the surface they lie on. */
@@ -213,19 +215,24 @@ void Stage::addSurface(const SnapshotScene::Surface& surface) {
 
 void Stage::addSegments(const Eigen::Matrix3Xd& ends, Color color, double width) {
   vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkCellArray> lines, joints;
   for (Eigen::Index i = 0; i + 1 < ends.cols(); i += 2) {
     const vtkIdType first = points->InsertNextPoint(toStage(ends.col(i)).data());
     points->InsertNextPoint(toStage(ends.col(i + 1)).data());
     lines->InsertNextCell({first, first + 1});
+    joints->InsertNextCell({first});
+    joints->InsertNextCell({first + 1});
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(lines);
+  data->SetVerts(joints); // round ends, or a bend of wide lines would gape
   const auto actor = makeActor(data);
   setColor(actor->GetProperty(), color);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(zoom_ * width));
+  actor->GetProperty()->SetPointSize(static_cast<float>(zoom_ * width));
+  actor->GetProperty()->RenderPointsAsSpheresOn();
   renderer_->AddActor(actor);
 }
 

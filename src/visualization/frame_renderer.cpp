@@ -18,8 +18,9 @@
 namespace pcl_sq {
 namespace {
 
-/// Larger pictures are rendered without enlargement: their pixels are fine enough.
-constexpr int LARGEST_SMOOTHED = 4096;
+/// Pixels up to which a picture is rendered twice as large and averaged; beyond, they
+/// are fine enough, and layers of translucent bodies would take gigabytes.
+constexpr long LARGEST_SMOOTHED = 2560L * 1920L;
 
 /** \brief VTK's factories and X's error handler belong to the whole process. */
 std::mutex& renderMutex() {
@@ -74,7 +75,7 @@ struct FrameRenderer::Window {
 
 FrameRenderer::FrameRenderer(int width, int height)
     : window_(std::make_unique<Window>()) {
-  if (std::max(width, height) > LARGEST_SMOOTHED)
+  if (static_cast<long>(width) * height > LARGEST_SMOOTHED)
     window_->zoom = 1;
   window_->vtk->SetDisplayId(window_->display.connection());
   window_->vtk->SetOffScreenRendering(1);

@@ -5,8 +5,8 @@ namespace pcl_sq {
 
 bool SnapshotOptions::isValid(std::string* why) const {
   const char* reason = nullptr;
-  if (width < 16 || width > 8192 || height < 16 || height > 8192)
-    reason = "the picture's sides must be 16 to 8192 pixels";
+  if (width < 16 || width > 4096 || height < 16 || height > 4096)
+    reason = "the picture's sides must be 16 to 4096 pixels";
   else if (!up.allFinite() || !(up.norm() > 1e-6))
     reason = "the upward direction must be finite and not zero";
   else if (!(opacity >= 0.0 && opacity <= 1.0))

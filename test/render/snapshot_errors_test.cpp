@@ -115,8 +115,8 @@ TEST(SnapshotOptions, EveryRangeIsHeldAtBothEnds) {
   EXPECT_FALSE(with([](SnapshotOptions& o) { o.width = o.height = 0; }));
   EXPECT_FALSE(with([](SnapshotOptions& o) { o.width = 15; }));
   EXPECT_TRUE(with([](SnapshotOptions& o) { o.width = 16; }));
-  EXPECT_TRUE(with([](SnapshotOptions& o) { o.height = 8192; }));
-  EXPECT_FALSE(with([](SnapshotOptions& o) { o.height = 8193; }));
+  EXPECT_TRUE(with([](SnapshotOptions& o) { o.height = 4096; }));
+  EXPECT_FALSE(with([](SnapshotOptions& o) { o.height = 4097; }));
   EXPECT_FALSE(with([](SnapshotOptions& o) { o.up.setZero(); }));
   EXPECT_FALSE(with([](SnapshotOptions& o) { o.up.x() = NAN; }));
   EXPECT_TRUE(with([](SnapshotOptions& o) { o.opacity = 0.0; }));

@@ -319,6 +319,21 @@ TEST(GraspPlanner, AnotherObjectInTheWayIsAvoided) {
       EXPECT_GE(distance(box, scene.obstacles.parts[0]), 0.002 - 1e-6);
 }
 
+TEST(GraspPlanner, WrenchQualityIsComputedOnDemand) {
+  GraspPlannerOptions options;
+  options.count = 3;
+  for (const Grasp& grasp : GraspPlanner({}, options).plan(cup()).grasps)
+    EXPECT_EQ(grasp.epsilon, 0.0);
+  options.wrench_quality = true;
+  const GraspPlan plan = GraspPlanner({}, options).plan(cup());
+  ASSERT_EQ(plan.grasps.size(), 3u);
+  for (const Grasp& grasp : plan.grasps) {
+    EXPECT_GT(grasp.epsilon, 0.0); // antipodal soft fingers close
+    EXPECT_LT(grasp.epsilon, 1.0);
+    EXPECT_GT(grasp.volume, 0.0);
+  }
+}
+
 TEST(GraspPlanner, ThreeFingersHoldABottleWithBalancedForces) {
   Gripper gripper;
   ASSERT_TRUE(Gripper::preset("robotiq_3f", gripper));

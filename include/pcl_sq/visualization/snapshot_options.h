@@ -11,8 +11,8 @@ namespace pcl_sq {
 /** \brief Settings of a picture.
  * \ingroup pcl_sq */
 struct PCL_SQ_EXPORTS SnapshotOptions {
-  int width = 1280;      ///< [px], [16, 8192]
-  int height = 960;      ///< [px], [16, 8192]
+  int width = 1280;      ///< [px], [16, 4096]
+  int height = 960;      ///< [px], [16, 4096]
   View view = View::ISO; ///< where from
   /** \brief Upward direction in the cloud's frame; cameras have y down. */
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
