@@ -115,10 +115,12 @@ TEST(ObserveObject, ArcBehindAnOccluderIsNotTheObjectsOwn) {
   ObservedObject observed;
   ASSERT_TRUE(observe(scene, view, observed));
   for (const ContourPoint& p : observed.contour) {
-    if (p.pixel.x() >= middle - 1)
+    if (p.pixel.x() >= middle - 1) {
       EXPECT_FALSE(p.own) << p.pixel.transpose();
-    if (p.pixel.x() < middle - 8) // nearer, caution may leave it out
+    }
+    if (p.pixel.x() < middle - 8) { // nearer, caution may leave it out
       EXPECT_TRUE(p.own) << p.pixel.transpose();
+    }
   }
   for (const SilhouetteLine& line : silhouetteLines(observed.contour, 48))
     EXPECT_LT(line.direction.x(), 0.3);
