@@ -10,6 +10,6 @@ bin=$PCL_SQ_BUILD_DIR/bin
 
 mkdir -p demo
 "$bin/example_00_bottle_cloud" demo/bottle.pcd
-"$bin/pcl_sq_fit" demo/bottle.pcd --remove-plane --fit full \
+"$bin/pcl_sq_fit" demo/bottle.pcd --remove-plane \
   -o demo/model.json --mesh demo/mesh.ply --snapshot demo/picture.png
 echo "Written: $(cd demo && ls -d model.json mesh.ply picture.png | sed 's|^|demo/|' | xargs)"

@@ -101,17 +101,33 @@ PrismMembership::PrismMembership(const VoxelLayout& layout,
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return prisms[a].cells.area() < prisms[b].cells.area();
     });
-  starts_.push_back(0);
+  // lists of the columns of voxels first: all voxels of a column have the same
+  std::vector<std::uint32_t> column_starts{0}, of_columns;
   for (int y = 0; y < layout.divisions[1]; ++y)
     for (int x = 0; x < layout.divisions[0]; ++x) {
       for (const std::uint32_t prism : order)
         if (prisms[prism].cells.contains(x, y)) {
-          prisms_.push_back(prism);
+          of_columns.push_back(prism);
           if (exclusive)
             break;
         }
-      starts_.push_back(prisms_.size());
+      column_starts.push_back(static_cast<std::uint32_t>(of_columns.size()));
     }
+  points_.assign(prisms.size(), 0);
+  starts_.reserve(layout.counts.size() + 1);
+  starts_.push_back(0);
+  std::size_t column = 0;
+  for (const std::uint32_t count : layout.counts) {
+    if (count >= layout.min_points)
+      for (std::uint32_t c = column_starts[column]; c < column_starts[column + 1];
+           ++c) {
+        prisms_.push_back(of_columns[c]);
+        points_[of_columns[c]] += count;
+      }
+    starts_.push_back(static_cast<std::uint32_t>(prisms_.size()));
+    if (++column + 1 == column_starts.size())
+      column = 0;
+  }
 }
 
 } // namespace pcl_sq

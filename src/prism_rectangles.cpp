@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prism_search.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pcl_sq {
 namespace {
 
-/** Cells farther than this from a prism do not belong to it [cells]. */
-constexpr int FRINGE = 2;
+/** How far a prism's rim reaches, what is nearer belongs to it [cells]: the round sides
+ * of a disc, for example, are no parts of their own. */
+int rimOf(const CellMask& mask) {
+  return std::max(
+      2, static_cast<int>(std::lround(0.1 * std::min(mask.width, mask.height))));
+}
+
+/** Missing cells that outweigh a valid one. With 1, a neck half as wide as its bottle
+ * costs nothing and stays in the body's prism; with 2 a row must be two thirds full. */
+constexpr int MISSING_WEIGHT = 2;
 
 /** The rectangle with the largest sum of weights, the smallest of equals: all pairs of
  * rows, Kadane's scan along each. */
@@ -55,15 +65,16 @@ CellRect boundsOf(const CellMask& mask, const CellRect& within) {
 std::vector<CellRect> takeRectangles(CellMask& rest, double least) {
   std::vector<int> weights(rest.cells.size());
   std::vector<CellRect> rects;
-  for (;;) {
+  while (rest.count() >= std::max(1.0, least)) {
     for (std::size_t c = 0; c < weights.size(); ++c)
-      weights[c] = rest.cells[c] ? 1 : -1;
+      weights[c] = rest.cells[c] ? 1 : -MISSING_WEIGHT;
     const CellRect rect = heaviestRect(weights, rest.width, rest.height);
-    if (rect.area() == 0 || countCells(rest, rect) < least)
-      return rects;
+    if (countCells(rest, rect) < least)
+      break;
     rects.push_back(rect);
     clearCells(rest, rect);
   }
+  return rects;
 }
 
 /** Cells from a cell to a rectangle, diagonals as one; 0 within. */
@@ -73,6 +84,13 @@ int cellsBetween(const CellRect& rect, int x, int y) {
                    x - (rect.x + rect.width - 1),
                    rect.y - y,
                    y - (rect.y + rect.height - 1)});
+}
+
+/** Whether no cell of \a inner is farther than \a reach from \a outer. */
+bool isWithin(const CellRect& inner, const CellRect& outer, int reach) {
+  return cellsBetween(outer, inner.x, inner.y) <= reach &&
+         cellsBetween(outer, inner.x + inner.width - 1, inner.y + inner.height - 1) <=
+             reach;
 }
 
 bool isInBlock(const CellMask& mask, int x, int y) {
@@ -134,7 +152,11 @@ takeRegions(CellMask rest, const std::vector<CellRect>& rects, double least) {
           std::any_of(rects.begin(), rects.end(), [&](const CellRect& rect) {
             return 2 * intersection(bounds, rect).area() > bounds.area();
           });
-      if (!surrounds && region.count() >= least)
+      const bool is_rim =
+          std::any_of(rects.begin(), rects.end(), [&](const CellRect& rect) {
+            return isWithin(bounds, rect, rimOf(rest));
+          });
+      if (!surrounds && !is_rim && region.count() >= least)
         regions.push_back(bounds);
     }
   return regions;
@@ -143,11 +165,12 @@ takeRegions(CellMask rest, const std::vector<CellRect>& rects, double least) {
 /** Extends each prism to the uncovered cells that are close to it and to no other. */
 void takeFringe(const CellMask& mask, std::vector<CellRect>& rects) {
   const std::vector<CellRect> cores = rects;
+  const int rim = rimOf(mask);
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x) {
       if (!mask(x, y))
         continue;
-      int nearest = FRINGE + 1;
+      int nearest = rim + 1;
       std::size_t prism = 0;
       for (std::size_t r = 0; r < cores.size(); ++r) {
         const int cells = cellsBetween(cores[r], x, y);
@@ -157,7 +180,7 @@ void takeFringe(const CellMask& mask, std::vector<CellRect>& rects) {
           prism = r;
         }
       }
-      if (nearest > 0 && nearest <= FRINGE)
+      if (nearest > 0 && nearest <= rim)
         rects[prism] = boundingRect(rects[prism], {x, y, 1, 1});
     }
 }

@@ -88,10 +88,10 @@ scanPrisms(const VoxelLayout& layout, const PrismOptions& options = PrismOptions
 PCL_SQ_EXPORTS int uncoveredCells(const CellMask& mask,
                                   const std::vector<CellRect>& rects);
 
-/** \brief Which prisms hold a column of voxels. */
+/** \brief Which prisms hold a voxel. */
 class PCL_SQ_EXPORTS PrismMembership {
 public:
-  /** \brief The prisms of one column, as indices. */
+  /** \brief The prisms of one voxel, as indices. */
   struct Range {
     const std::uint32_t *first, *last;
     const std::uint32_t* begin() const { return first; }
@@ -99,20 +99,24 @@ public:
   };
 
   /** \param[in] exclusive whether only the smallest prism (the first of equals) holds a
-   * column that lies in several */
+   * voxel that lies in several */
   PrismMembership(const VoxelLayout& layout,
                   const std::vector<Prism>& prisms,
                   bool exclusive);
 
-  /** \param[in] column as VoxelLayout::columnOf() gives it */
-  Range prismsOf(std::int32_t column) const {
-    const auto c = static_cast<std::size_t>(column);
-    return {prisms_.data() + starts_[c], prisms_.data() + starts_[c + 1]};
+  /** \brief The prisms of a voxel; none if it is not valid.
+   * \param[in] voxel as VoxelLayout::indexOf() gives it, not negative */
+  Range prismsOf(std::int32_t voxel) const {
+    const auto v = static_cast<std::size_t>(voxel);
+    return {prisms_.data() + starts_[v], prisms_.data() + starts_[v + 1]};
   }
+  /** \brief Points of the grid in each prism. */
+  const std::vector<std::size_t>& pointsPerPrism() const { return points_; }
 
 private:
-  std::vector<std::size_t> starts_;
+  std::vector<std::uint32_t> starts_; // of each voxel's list in prisms_
   std::vector<std::uint32_t> prisms_;
+  std::vector<std::size_t> points_;
 };
 
 } // namespace pcl_sq

@@ -33,6 +33,28 @@ struct PCL_SQ_EXPORTS VoxelOptions {
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;
 };
 
+/** \brief Finds the voxel of a point: what of a VoxelLayout a loop over points needs,
+ * as a copy that the compiler can keep in registers. */
+struct VoxelLocator {
+  double min[3], max[3], cells_per_meter[3];
+  int divisions[3];
+
+  /** \brief As VoxelLayout::indexOf(). */
+  std::int32_t operator()(double x, double y, double z) const {
+    const int i = cellAlong(0, x), j = cellAlong(1, y), k = cellAlong(2, z);
+    return (i | j | k) < 0 ? -1 : i + divisions[0] * (j + divisions[1] * k);
+  }
+
+  /** \brief Cell along one axis; -1 outside. */
+  int cellAlong(int axis, double value) const {
+    // negated, so that NaN counts as outside
+    if (!(value >= min[axis] && value <= max[axis]))
+      return -1;
+    const int cell = static_cast<int>((value - min[axis]) * cells_per_meter[axis]);
+    return cell < divisions[axis] ? cell : divisions[axis] - 1;
+  }
+};
+
 /** \brief A grid that divides a region exactly, and the points counted in it.
  *
  * Voxel (i, j, k) has the index i + nx (j + ny k); j grows with y, which points down in
@@ -52,8 +74,15 @@ struct PCL_SQ_EXPORTS VoxelLayout {
    * coordinates that are not finite. The region's far sides belong to the last voxels.
    */
   std::int32_t indexOf(double x, double y, double z) const {
-    const int i = cellAlong(0, x), j = cellAlong(1, y), k = cellAlong(2, z);
-    return (i | j | k) < 0 ? -1 : i + divisions[0] * (j + divisions[1] * k);
+    return locator()(x, y, z);
+  }
+  /** \brief indexOf() for loops. */
+  VoxelLocator locator() const {
+    const auto &a = region.min, &b = region.max, &c = cells_per_meter;
+    return {{a[0], a[1], a[2]},
+            {b[0], b[1], b[2]},
+            {c[0], c[1], c[2]},
+            {divisions[0], divisions[1], divisions[2]}};
   }
   /** \brief Index of the column of voxels along z that holds a point, i + nx j. */
   std::int32_t columnOf(std::int32_t index) const {
@@ -71,16 +100,6 @@ struct PCL_SQ_EXPORTS VoxelLayout {
   std::vector<std::uint32_t> columnCounts() const;
   /** \brief The part of the region behind a rectangle of cells; keeps its depth. */
   RoiBox boxOf(const CellRect& cells) const;
-
-private:
-  int cellAlong(int axis, double value) const {
-    // negated, so that NaN counts as outside
-    if (!(value >= region.min[axis] && value <= region.max[axis]))
-      return -1;
-    const int cell =
-        static_cast<int>((value - region.min[axis]) * cells_per_meter[axis]);
-    return cell < divisions[axis] ? cell : divisions[axis] - 1;
-  }
 };
 
 /** \brief An empty grid over a region.

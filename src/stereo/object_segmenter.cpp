@@ -144,6 +144,12 @@ bool ObjectSegmenter::fail(const std::string& method,
 bool ObjectSegmenter::finish(const std::string& method,
                              cv::Mat mask,
                              Segment& segment) {
+  // lines of one or two pixels along edges of the background are no object
+  if (mask.cols >= 400)
+    cv::morphologyEx(mask,
+                     mask,
+                     cv::MORPH_OPEN,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
   mask = detail::largestComponents(mask);
   detail::fillSmallHoles(mask, 0.01);
   const int area = cv::countNonZero(mask);
@@ -175,6 +181,13 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                            ? colorInBox(bgr, inside, window)
                            : cutInBox(bgr, inside, window, options_.iterations);
   part.copyTo(mask(window));
+  const cv::Rect found = cv::boundingRect(detail::largestComponents(mask));
+  if (found.area() < 0.4 * inside.area()) {
+    PCL_WARN(
+        "[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
+        "its surroundings; the whole box is used.\n");
+    mask(inside).setTo(255);
+  }
   return finish("segmentBox", mask, segment);
 }
 

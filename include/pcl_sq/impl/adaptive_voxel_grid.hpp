@@ -6,10 +6,20 @@
 #include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
+#include <pcl/type_traits.h>
+
+#include <boost/mpl/size.hpp>
 
 #include <limits>
 
 namespace pcl_sq {
+namespace detail {
+
+template <typename PointT>
+constexpr bool HAS_MORE_THAN_XYZ =
+    boost::mpl::size<typename pcl::traits::fieldList<PointT>::type>::value > 3;
+
+} // namespace detail
 
 template <typename PointT>
 AdaptiveVoxelGrid<PointT>::AdaptiveVoxelGrid(bool extract_removed_indices)
@@ -155,22 +165,24 @@ void AdaptiveVoxelGrid<PointT>::averagePoints(PointCloud& output) {
   // sums exist only for voxels that hold points; in double, for millions of points
   std::vector<Eigen::Vector3d> sums;
   std::vector<pcl::CentroidPoint<PointT>> others;
+  const bool average_others = downsample_all_data_ && detail::HAS_MORE_THAN_XYZ<PointT>;
   leaf_layout_.assign(layout_.counts.size(), -1);
+  const VoxelLocator locate = layout_.locator();
   for (const auto index : *indices_) {
     const PointT& point = (*input_)[static_cast<std::size_t>(index)];
-    const std::int32_t cell = layout_.indexOf(point.x, point.y, point.z);
+    const std::int32_t cell = locate(point.x, point.y, point.z);
     if (cell < 0)
       continue;
     const auto voxel = static_cast<std::size_t>(cell);
     if (layout_.counts[voxel]++ == 0) {
       leaf_layout_[voxel] = static_cast<int>(sums.size());
       sums.emplace_back(Eigen::Vector3d::Zero());
-      if (downsample_all_data_)
+      if (average_others)
         others.emplace_back();
     }
     const auto slot = static_cast<std::size_t>(leaf_layout_[voxel]);
     sums[slot] += Eigen::Vector3d(point.x, point.y, point.z);
-    if (downsample_all_data_)
+    if (average_others)
       others[slot].add(point);
   }
   layout_.min_points =
@@ -182,7 +194,7 @@ void AdaptiveVoxelGrid<PointT>::averagePoints(PointCloud& output) {
     if (!layout_.isValid(static_cast<std::int32_t>(voxel)))
       continue;
     PointT centroid;
-    if (downsample_all_data_)
+    if (average_others)
       others[static_cast<std::size_t>(slot)].get(centroid);
     centroid.getVector3fMap() =
         (sums[static_cast<std::size_t>(slot)] / layout_.counts[voxel])

@@ -54,16 +54,20 @@ bool PrismSegmentation<PointT>::segment(std::vector<pcl::PointIndices>& clusters
 template <typename PointT>
 void PrismSegmentation<PointT>::distribute(
     std::vector<pcl::PointIndices>& clusters) const {
-  clusters.assign(prisms_.size(), pcl::PointIndices());
-  for (pcl::PointIndices& cluster : clusters)
-    cluster.header = input_->header;
   const PrismMembership membership(layout_, prisms_, exclusive_);
+  clusters.assign(prisms_.size(), pcl::PointIndices());
+  for (std::size_t p = 0; p < clusters.size(); ++p) {
+    clusters[p].header = input_->header;
+    clusters[p].indices.reserve(
+        std::min(indices_->size(), membership.pointsPerPrism()[p]));
+  }
+  const VoxelLocator locate = layout_.locator();
   for (const auto index : *indices_) {
     const PointT& point = (*input_)[static_cast<std::size_t>(index)];
-    const std::int32_t voxel = layout_.indexOf(point.x, point.y, point.z);
-    if (voxel < 0 || !layout_.isValid(voxel))
+    const std::int32_t voxel = locate(point.x, point.y, point.z);
+    if (voxel < 0)
       continue;
-    for (const std::uint32_t prism : membership.prismsOf(layout_.columnOf(voxel)))
+    for (const std::uint32_t prism : membership.prismsOf(voxel))
       clusters[prism].indices.push_back(index);
   }
 }

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stereo pair (or depth image) in, union of superquadrics out.
+#include "app.h"
+#include "files.h"
+#include "model_options.h"
+#include "panel.h"
+#include "pcl_sq/stage_timer.h"
+#include "pcl_sq/stereo/histogram_plot.h"
+#include "stereo_front.h"
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+using namespace pcl_sq;
+using namespace pcl_sq::app;
+
+namespace {
+
+struct Outputs {
+  std::string cloud, object_cloud, disparity, panel, mask, histogram;
+};
+
+void addOutputs(CLI::App& cli, Outputs& o) {
+  cli.add_option("--cloud", o.cloud, "Organized cloud as .pcd or .ply")
+      ->type_name("FILE");
+  cli.add_option("--object-cloud", o.object_cloud, "The object's points alone")
+      ->type_name("FILE");
+  cli.add_option(
+         "--disparity",
+         o.disparity,
+         "Disparity: .png (16-bit, 1/256 px, 0 = none) or .pfm (px, inf = none)")
+      ->type_name("FILE");
+  cli.add_option("--panel", o.panel, "The steps side by side, as the paper's Fig. 5")
+      ->type_name("FILE");
+  cli.add_option("--write-mask", o.mask, "The object's mask as PNG")->type_name("FILE");
+  cli.add_option("--histogram", o.histogram, "Depth histogram with the aperture as PNG")
+      ->type_name("FILE");
+}
+
+void checkOutputs(const Outputs& o) {
+  for (const std::string& path :
+       {o.cloud, o.object_cloud, o.disparity, o.panel, o.mask, o.histogram})
+    if (!path.empty())
+      checkWritable(path);
+  for (const std::string& path : {o.cloud, o.object_cloud})
+    if (!path.empty() && extensionOf(path) != ".pcd" && extensionOf(path) != ".ply")
+      throw UsageError("'" + path + "': a cloud is written as .pcd or .ply.");
+  if (!o.disparity.empty() && extensionOf(o.disparity) != ".png" &&
+      extensionOf(o.disparity) != ".pfm")
+    throw UsageError("'" + o.disparity + "': disparities are written as .png or .pfm.");
+}
+
+void writeImage(const std::string& path, const cv::Mat& image) {
+  writeAtomically(path, [&](const std::string& temporary) {
+    if (!cv::imwrite(temporary, image))
+      throw Failure("cannot write '" + path + "'; is its ending that of an image?");
+  });
+}
+
+void writeDisparity(const std::string& path, const cv::Mat& disparity) {
+  if (disparity.empty())
+    throw Failure("a depth image has no disparity to write; leave out --disparity.");
+  const cv::Mat missing = disparity != disparity;
+  cv::Mat out = disparity.clone();
+  if (extensionOf(path) == ".pfm")
+    out.setTo(std::numeric_limits<float>::infinity(), missing);
+  else {
+    out.setTo(0.0f, missing);
+    out.convertTo(out, CV_16U, 256.0);
+  }
+  writeImage(path, out);
+}
+
+template <typename Cloud>
+void writeCloud(const std::string& path, const Cloud& cloud) {
+  writeAtomically(path, [&](const std::string& temporary) {
+    const int failed = extensionOf(path) == ".ply"
+                           ? pcl::io::savePLYFileBinary(temporary, cloud)
+                           : pcl::io::savePCDFileBinaryCompressed(temporary, cloud);
+    if (failed != 0)
+      throw Failure("cannot write '" + path + "'.");
+  });
+}
+
+/** \brief The stereo cloud in the programs' point type; only \a keep's points stay
+ * finite, all of them if it is null. */
+LoadedCloud toLoadedCloud(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                          const pcl::Indices* keep) {
+  constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
+  LoadedCloud result;
+  result.has_color = true;
+  result.cloud.reset(new pcl::PointCloud<pcl::PointXYZRGBA>);
+  pcl::copyPointCloud(cloud, *result.cloud);
+  if (keep != nullptr) {
+    std::vector<bool> kept(cloud.size(), false);
+    for (const pcl::index_t i : *keep)
+      kept[static_cast<std::size_t>(i)] = true;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (!kept[i]) {
+        auto& p = (*result.cloud)[i];
+        p.x = p.y = p.z = NOTHING;
+      }
+  }
+  for (const auto& p : *result.cloud)
+    result.finite_points += std::isfinite(p.z) ? 1 : 0;
+  return result;
+}
+
+/** \brief Adds what the front half did to the model file. */
+void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& file) {
+  std::vector<std::pair<std::string, double>> timings = front.timings_ms;
+  double total = 0.0;
+  for (const auto& stage : file.timings_ms)
+    if (stage.first != "total" && stage.first != "load")
+      timings.push_back(stage);
+  for (const auto& stage : timings)
+    total += stage.second;
+  timings.emplace_back("total", total);
+  file.timings_ms = timings;
+  nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
+  const PixelRect& r = front.rect;
+  extra["stereo"] = {
+      {"matcher",
+       !o.depth.empty()                          ? "depth image"
+       : o.stereo.matcher == StereoMatcher::SGBM ? "sgbm"
+                                                 : "bm"},
+      {"wls", o.stereo.wls},
+      {"coverage", front.stereo.coverage},
+      {"roi", {r.x, r.y, r.width, r.height}},
+      {"segmented", !front.segment.mask.empty()},
+      {"aperture",
+       {{"near", front.histogram.nearDepth()}, {"far", front.histogram.farDepth()}}},
+      {"camera",
+       {{"fx", front.stereo.intrinsics.fx},
+        {"fy", front.stereo.intrinsics.fy},
+        {"cx", front.stereo.intrinsics.cx},
+        {"cy", front.stereo.intrinsics.cy},
+        {"baseline", front.stereo.intrinsics.baseline}}}};
+  file.extra_json = extra.dump();
+}
+
+PanelInput panelInput(const FrontResult& front,
+                      const LoadedCloud& scene,
+                      const LoadedCloud& object,
+                      const ModelResult& result) {
+  PanelInput in;
+  in.image = front.stereo.left;
+  if (in.image.empty()) // a depth image without colours
+    in.image = cv::Mat(static_cast<int>(front.stereo.cloud->height),
+                       static_cast<int>(front.stereo.cloud->width),
+                       CV_8UC3,
+                       cv::Scalar::all(180));
+  in.mask = front.segment.mask;
+  in.rect = front.rect;
+  in.histogram = front.histogram;
+  in.disparity_scale = front.stereo.intrinsics.fx * front.stereo.intrinsics.baseline;
+  in.region = front.region;
+  in.cloud = scene.cloud;
+  in.object = object.cloud;
+  in.report = result.report;
+  in.model = result.file.model;
+  return in;
+}
+
+/** \brief Tells the model half what the images gave. The best mode looks at the whole
+ * scene through the outline, the paper's chain at the object's points in their box. */
+void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
+  model.roi.clear();
+  model.mask.clear();
+  const CameraIntrinsics& k = front.stereo.intrinsics;
+  model.intrinsics = {k.fx, k.fy, k.cx, k.cy};
+  if (!whole_scene) {
+    if (model.box.empty())
+      for (const Eigen::Vector3d& corner : {front.region.min, front.region.max})
+        model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
+    return;
+  }
+  const cv::Mat& mask = front.segment.mask;
+  if (mask.empty()) {
+    model.roi = {front.rect.x, front.rect.y, front.rect.width, front.rect.height};
+    return;
+  }
+  CellMask& cells = model.estimation.view.mask;
+  cells = CellMask(mask.cols, mask.rows);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      cells.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
+}
+
+void writeFront(const FrontResult& front, const Outputs& outputs) {
+  const StereoIntrinsics& k = front.stereo.intrinsics;
+  if (!outputs.disparity.empty())
+    writeDisparity(outputs.disparity, front.stereo.disparity);
+  if (!outputs.cloud.empty())
+    writeCloud(outputs.cloud, *front.stereo.cloud);
+  if (!outputs.mask.empty() && !front.segment.mask.empty())
+    writeImage(outputs.mask, front.segment.mask);
+  if (!outputs.histogram.empty())
+    writeImage(outputs.histogram,
+               plotDepthHistogram(front.histogram, k.fx * k.baseline));
+  if (!outputs.object_cloud.empty()) {
+    pcl::PointCloud<pcl::PointXYZRGB> points;
+    pcl::copyPointCloud(*front.stereo.cloud, front.object, points);
+    writeCloud(outputs.object_cloud, points);
+  }
+}
+
+int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
+  const bool best = model.estimation.decomposition == Decomposition::PARTS;
+  front_options.mask = model.mask;
+  front_options.intrinsics = model.intrinsics;
+  if (front_options.segment.empty() && front_options.mask.empty() && !best &&
+      !model.roi.empty() && front_options.click.empty() && front_options.color.empty())
+    front_options.segment = "none";
+  checkFrontOptions(front_options, model.roi);
+  checkModelOptions(model);
+  checkOutputs(outputs);
+  const FrontResult front = runFront(front_options, model.roi);
+  writeFront(front, outputs);
+  handOver(front, best, model);
+  const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
+  const LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
+  const std::string input =
+      front_options.left.empty() ? front_options.depth : front_options.left;
+  ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
+  describeFront(front_options, front, result.file);
+  writeOutputs(object, result, model);
+  if (!outputs.panel.empty())
+    writeImage(outputs.panel, drawPanel(panelInput(front, scene, object, result)));
+  if (!quiet())
+    printSummary(result);
+  return DONE;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  FrontOptions front;
+  ModelOptions model;
+  Outputs outputs;
+  return run(
+      argc,
+      argv,
+      "pcl_sq_stereo",
+      "Fits a union of superquadrics to the object in a stereo pair.",
+      "  pcl_sq_stereo left.png right.png --calib calib.yml -o model.json "
+      "--panel panel.png\n"
+      "  pcl_sq_stereo im0.png im1.png --calib calib.txt --roi 340,110,58,58 "
+      "--segment grabcut\n"
+      "  pcl_sq_stereo left.png right.png --calib calib.yml --matcher sgbm "
+      "--click 512,380 --cloud scene.pcd\n"
+      "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
+      [&](CLI::App& cli) {
+        addFrontOptions(cli, front);
+        addOutputs(cli, outputs);
+        addModelOptions(cli, model);
+      },
+      [&] { return work(front, model, outputs); });
+}

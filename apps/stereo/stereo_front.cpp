@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo_front.h"
+
+#include "app.h"
+#include "pcl_sq/roi_estimator.h"
+#include "pcl_sq/stage_timer.h"
+#include "pcl_sq/stereo/texture_border_filter.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace pcl_sq::app {
+namespace {
+
+cv::Mat loadImage(const std::string& path, int flags = cv::IMREAD_COLOR) {
+  const cv::Mat image = cv::imread(path, flags);
+  if (image.empty())
+    throw Failure("cannot read the image '" + path +
+                  "'; check the name and the format.");
+  return image;
+}
+
+StereoResult loadDepth(const FrontOptions& o) {
+  CameraIntrinsics camera;
+  camera.fx = o.intrinsics[0];
+  camera.fy = o.intrinsics[1];
+  camera.cx = o.intrinsics[2];
+  camera.cy = o.intrinsics[3];
+  const cv::Mat color = o.left.empty() ? cv::Mat() : loadImage(o.left);
+  return reprojectDepth(
+      loadImage(o.depth, cv::IMREAD_UNCHANGED), o.depth_unit, camera, color);
+}
+
+/** \brief The object in the image, by whatever hint there is. */
+Segment
+findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
+  Segment segment;
+  if (!o.mask.empty()) {
+    cv::Mat mask = loadImage(o.mask, cv::IMREAD_GRAYSCALE);
+    if (mask.size() != s.left.size())
+      throw Failure(
+          "the mask and the image differ in size; give a mask of the rectified "
+          "left image.");
+    segment.mask = mask > 127;
+    segment.rect = boundingRect(segment.mask);
+    if (segment.rect.empty())
+      throw Failure("the mask is empty; paint the object white.");
+    return segment;
+  }
+  ObjectSegmenter segmenter;
+  SegmenterOptions options;
+  options.method = o.segment == "color" ? SegmentMethod::COLOR : SegmentMethod::GRABCUT;
+  segmenter.setOptions(options);
+  bool found = false;
+  if (!o.click.empty())
+    found = segmenter.segmentClick(s.left, o.click[0], o.click[1], segment);
+  else if (!o.color.empty())
+    found = segmenter.segmentColor(s.left, o.color[0], o.color[1], o.color[2], segment);
+  else if (!roi.empty())
+    found = segmenter.segmentBox(s.left, {roi[0], roi[1], roi[2], roi[3]}, segment);
+  else if (!s.disparity.empty() && o.stereo.matcher == StereoMatcher::BM) {
+    // block matching loses most of a slanted table, so the table is looked for in the
+    // denser semi-global disparities
+    StereoOptions dense = o.stereo;
+    dense.matcher = StereoMatcher::SGBM;
+    dense.block_size = 0;
+    StereoReprojector reprojector(StereoCalibration::fromRectified(s.intrinsics));
+    reprojector.setOptions(dense);
+    const StereoResult other = reprojector.compute(s.left, s.right);
+    found = segmenter.segmentTabletop(s.left, *other.cloud, segment);
+  } else
+    found = segmenter.segmentTabletop(s.left, *s.cloud, segment);
+  if (!found)
+    throw Failure(segmenter.getFailure() + ".");
+  return segment;
+}
+
+/** \brief Points of the mask that the border filter keeps. */
+void filterBorder(const FrontOptions& o, FrontResult& r) {
+  TextureBorderFilter filter;
+  filter.setInputCloud(r.stereo.cloud);
+  pcl::IndicesPtr indices(new pcl::Indices(r.object));
+  filter.setIndices(indices);
+  filter.setMask(r.segment.mask);
+  filter.setBlockSize(o.stereo.block_size != 0                ? o.stereo.block_size
+                      : o.stereo.matcher == StereoMatcher::BM ? 15
+                                                              : 5);
+  filter.filter(r.object);
+}
+
+pcl::IndicesPtr maskIndices(const cv::Mat& mask) {
+  pcl::IndicesPtr indices(new pcl::Indices);
+  const auto* m = mask.ptr<std::uint8_t>();
+  for (int i = 0; i < static_cast<int>(mask.total()); ++i)
+    if (m[i] != 0)
+      indices->push_back(i);
+  return indices;
+}
+
+void findRegion(FrontResult& r) {
+  RoiEstimator<pcl::PointXYZRGB> estimator;
+  estimator.setInputCloud(r.stereo.cloud);
+  estimator.setRect(r.rect);
+  if (!r.segment.mask.empty())
+    estimator.setIndices(maskIndices(r.segment.mask));
+  DepthHistogramOptions options;
+  // of a depth camera, bins are relative to the scene's depth
+  options.disparity_scale = r.stereo.intrinsics.fx * r.stereo.intrinsics.baseline;
+  estimator.setHistogramOptions(options);
+  const bool found = estimator.estimate(r.region, r.object);
+  r.histogram = estimator.getHistogram();
+  if (!found)
+    throw Failure("the region of the image holds no cluster of depths; the object was "
+                  "not matched: give another region or matcher.");
+}
+
+} // namespace
+
+void addFrontOptions(CLI::App& cli, FrontOptions& o) {
+  cli.add_option("left", o.left, "Left image (with --depth: the colour image)")
+      ->type_name("LEFT");
+  cli.add_option("right", o.right, "Right image")->type_name("RIGHT");
+  cli.add_option("--calib",
+                 o.calib,
+                 "OpenCV YAML/XML, raw or rectified (two files: intrinsics and "
+                 "extrinsics), or Middlebury calib.txt")
+      ->expected(1, 2)
+      ->type_name("FILE");
+  cli.add_option("--calib-unit", o.calib_unit, "Length of its unit [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  const std::map<std::string, StereoMatcher> matchers{{"bm", StereoMatcher::BM},
+                                                      {"sgbm", StereoMatcher::SGBM}};
+  cli.add_option(
+         "--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
+      ->transform(CLI::CheckedTransformer(matchers).description(""))
+      ->type_name("NAME")
+      ->default_str("bm");
+  cli.add_option(
+      "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
+  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found");
+  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found");
+  cli.add_option("--uniqueness", o.stereo.uniqueness, "Margin of the best match [%]")
+      ->capture_default_str();
+  cli.add_option(
+         "--left-right", o.stereo.left_right_tolerance, "Check [px]; negative: none")
+      ->capture_default_str();
+  cli.add_flag("--wls", o.stereo.wls, "Edge-aware smoothing of the disparities");
+  cli.add_option("--depth", o.depth, "Depth image (16-bit PNG) instead of a right one")
+      ->type_name("FILE");
+  cli.add_option("--depth-unit", o.depth_unit, "Length of one step of it [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  cli.add_option(
+         "--segment",
+         o.segment,
+         "How the object's outline is found; none: only the box of --roi counts")
+      ->type_name("none|color|grabcut")
+      ->default_str("grabcut, with the paper's preset and --roi none")
+      ->check(CLI::IsMember({"none", "color", "grabcut"}));
+  auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
+                    ->expected(2)
+                    ->delimiter(',')
+                    ->type_name("X,Y");
+  cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
+      ->expected(3)
+      ->delimiter(',')
+      ->type_name("R,G,B")
+      ->excludes(click);
+  cli.add_flag("--border-filter",
+               o.border_filter,
+               "Texture-based filter of the object's rim (section IV)");
+}
+
+void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
+  std::string why;
+  if (!o.stereo.isValid(&why))
+    throw UsageError(why + ".");
+  if (o.depth.empty()) {
+    if (o.left.empty() || o.right.empty())
+      throw UsageError("give a left and a right image (or --depth and --intrinsics).");
+    if (o.calib.empty())
+      throw UsageError("--calib is missing; give the calibration of the pair.");
+  } else {
+    if (!o.right.empty())
+      throw UsageError("give either a right image or --depth, not both.");
+    if (o.intrinsics.size() != 4)
+      throw UsageError("--depth needs --intrinsics FX,FY,CX,CY.");
+    if (o.left.empty() && o.mask.empty() && !roi.empty() && o.segment != "none")
+      throw UsageError(
+          "give the colour image, or --segment none, for the depth image.");
+  }
+  const bool box_only = o.segment == "none";
+  if (!o.mask.empty() && !o.segment.empty() && !box_only)
+    throw UsageError("give either --mask or --segment, not both.");
+  if (box_only && (roi.empty() || !o.click.empty() || !o.color.empty()))
+    throw UsageError("--segment none needs --roi and no other hint.");
+  if (o.border_filter && box_only && o.mask.empty())
+    throw UsageError(
+        "--border-filter needs the object's outline: --segment or --mask.");
+}
+
+FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
+  FrontResult r;
+  StageTimer timer(r.timings_ms);
+  if (o.depth.empty()) {
+    const auto images = timer.run(
+        "load", [&] { return std::make_pair(loadImage(o.left), loadImage(o.right)); });
+    StereoReprojector reprojector(StereoCalibration::load(o.calib, o.calib_unit));
+    reprojector.setOptions(o.stereo);
+    r.stereo = reprojector.compute(images.first, images.second);
+  } else
+    r.stereo = timer.run("load", [&] { return loadDepth(o); });
+  r.timings_ms.insert(
+      r.timings_ms.end(), r.stereo.timings_ms.begin(), r.stereo.timings_ms.end());
+
+  const auto width = static_cast<int>(r.stereo.cloud->width);
+  const auto height = static_cast<int>(r.stereo.cloud->height);
+  if (!roi.empty() && (roi[0] >= width || roi[1] >= height || roi[0] + roi[2] <= 0 ||
+                       roi[1] + roi[3] <= 0))
+    throw Failure("--roi lies outside of the image of " + std::to_string(width) +
+                  " x " + std::to_string(height) + " px; give a region within it.");
+  if (o.segment == "none" && o.mask.empty())
+    r.rect = {roi[0], roi[1], roi[2], roi[3]};
+  else {
+    r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
+    r.rect = r.segment.rect;
+  }
+  timer.run("roi", [&] {
+    findRegion(r);
+    if (o.border_filter)
+      filterBorder(o, r);
+    return true;
+  });
+  if (r.object.empty())
+    throw Failure("no point of the object is left; leave out --border-filter.");
+  return r;
+}
+
+} // namespace pcl_sq::app

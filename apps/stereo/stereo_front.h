@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_sq/depth_histogram.h"
+#include "pcl_sq/roi.h"
+#include "pcl_sq/stereo/object_segmenter.h"
+#include "pcl_sq/stereo/stereo_reprojector.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pcl_sq::app {
+
+/** \brief How an object's cloud is got from images. */
+struct FrontOptions {
+  std::string left, right;        ///< images; \a right is empty with \a depth
+  std::vector<std::string> calib; ///< one or two files
+  double calib_unit = 1.0;        ///< of the calibration's lengths [m]
+  StereoOptions stereo;
+  std::string depth;              ///< depth image instead of a right one
+  double depth_unit = 0.001;      ///< of its steps [m]
+  std::vector<double> intrinsics; ///< fx, fy, cx, cy of the depth image
+  std::string segment;            ///< "", "none", "color" or "grabcut"
+  std::vector<int> click, color;  ///< hints: pixel; red, green, blue
+  std::string mask;               ///< mask image instead of a segmentation
+  bool border_filter = false;
+};
+
+/** \brief The object's points and where they come from. */
+struct FrontResult {
+  StereoResult stereo;
+  Segment segment; ///< its mask is empty if only a box is known
+  PixelRect rect;  ///< 2D query
+  DepthHistogram histogram;
+  RoiBox region;       ///< 3D query
+  pcl::Indices object; ///< points of the object in the stereo cloud
+  std::vector<std::pair<std::string, double>> timings_ms;
+};
+
+/** \brief Adds the options to a program, but for those it shares with the model half:
+ * mask and intrinsics. */
+void addFrontOptions(CLI::App& cli, FrontOptions& options);
+/** \brief Refuses contradictions. \throw UsageError */
+void checkFrontOptions(const FrontOptions& options, const std::vector<int>& roi);
+
+/** \brief From the images to the object's points.
+ * \param[in] roi box in the image: x, y, w, h, or empty \throw Failure */
+FrontResult runFront(const FrontOptions& options, const std::vector<int>& roi);
+
+} // namespace pcl_sq::app
