@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "full_fit.h"
-#include "point_set.h"
 
 #include <Eigen/Cholesky>
 
@@ -10,9 +9,10 @@ namespace detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 12;        ///< one more than parameters
-constexpr std::size_t WORKING_POINTS = 16384; ///< more do not change the mixture
-constexpr double MAX_AXIS = 30.0;             ///< standard deviations of the cloud
+constexpr std::size_t MIN_POINTS = 12;         ///< one more than parameters
+constexpr std::size_t WORKING_POINTS = 16384;  ///< more do not change the mixture
+constexpr std::size_t MEASURED_POINTS = 65536; ///< for the reported distances
+constexpr double MAX_AXIS = 30.0;              ///< standard deviations of the cloud
 constexpr double MIN_AXIS = 1e-4;
 
 /** \brief Inverse of the information in the free directions, in the cloud's unit. */
@@ -120,7 +120,7 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   const bool framed = principalFrame(points, frame);
   const UnitPoints all = framed ? toUnit(points, frame) : UnitPoints();
   summary.points = all.size();
-  if (!framed || all.size() < MIN_POINTS || spannedDimensions(points) < 2) {
+  if (!framed || all.size() < MIN_POINTS || isLine(frame)) {
     summary.termination = framed && all.size() >= MIN_POINTS
                               ? Termination::DEGENERATE
                               : Termination::TOO_FEW_POINTS;
@@ -154,7 +154,8 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   summary.sigma = best.mixture.sigma * frame.scale;
   summary.outlier_share = best.mixture.outlier_share;
   summary.covariance = covarianceOf(last, setting.lm, best.mixture.sigma, frame.scale);
-  addDistances(all, best.model, frame.scale, summary);
+  addDistances(
+      all.size() > MEASURED_POINTS ? part : all, best.model, frame.scale, summary);
   return summary;
 }
 

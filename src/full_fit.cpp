@@ -23,6 +23,7 @@ constexpr std::size_t SWITCHES = 2; ///< other descriptions that are refined
 constexpr double MARGIN = 0.1;      ///< of the likelihood's between coarse and fine
 constexpr double EXACT = 1e-4;      ///< a sigma that only the right shape has
 constexpr double NOTABLE = 1e-3;    ///< smallest gain that starts another round
+constexpr double SETTLED = 0.05;    ///< relative change of sigma that ends the rounds
 constexpr double COARSE_SHRINKAGE = 0.3;
 constexpr double FINE_SHRINKAGE = 0.05;
 
@@ -67,13 +68,16 @@ Candidate anneal(const UnitPoints& points,
   for (int k = 0; k < rounds; ++k) {
     LmOptions o = runOptions(s, c, residual, points.size());
     o.max_iterations = coarse ? COARSE_ITERATIONS : FINE_ITERATIONS;
-    o.cost_tolerance = 1e-4;
+    o.cost_tolerance = 1e-3;
     const LmResult r = levenbergMarquardt(points, c.model, o);
     s.iterations += r.iterations;
     c.model = r.model;
     const double before = c.mixture.sigma;
     c.mixture = estimated(c.mixture, r.equations, points.size(), s.limits);
     c.mixture.sigma = std::max(c.mixture.sigma, shrinkage * before);
+    if (std::abs(c.mixture.sigma - before) < SETTLED * before &&
+        r.termination == Termination::COST_CHANGE_TOO_SMALL)
+      break;
   }
   const double cost =
       evaluateCost(points, c.model, runOptions(s, c, residual, points.size()));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "unit_frame.h"
 
-#include "point_set.h"
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -11,6 +9,12 @@
 namespace pcl_sq::detail {
 
 namespace {
+
+/** \brief Cheaper than three tests: a sum times zero is zero unless a term is none. */
+template <typename Column>
+bool isFinite(const Column& p) {
+  return (p[0] + p[1] + p[2]) * 0.0 == 0.0;
+}
 
 std::size_t padded(std::size_t count) {
   return (count + kernels::BLOCK - 1) / kernels::BLOCK * kernels::BLOCK;
@@ -54,25 +58,51 @@ double UnitPoints::boxVolume() const {
 
 bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                     UnitFrame& frame) {
-  const Moments moments = momentsOf(points);
-  if (moments.count < 3 || !moments.covariance.allFinite())
-    return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments.covariance);
-  const double deviation = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
-  if (!(deviation > 1e-150) || !std::isfinite(deviation))
-    return false;
-  frame.origin = moments.mean;
-  frame.scale = deviation;
-  frame.axes = eigen.eigenvectors();
-  Eigen::Vector3d third = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    if (points.col(i).allFinite())
-      third += frame.toUnit(points.col(i)).array().cube().matrix();
-  for (int k = 0; k < 2; ++k)
-    if (third[k] < 0.0)
+    if (isFinite(points.col(i))) {
+      mean += points.col(i);
+      ++count;
+    }
+  if (count < 3)
+    return false;
+  mean /= double(count);
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d third[3] = {second, second, second}; // sums of d d^T d_k
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (isFinite(points.col(i))) {
+      const Eigen::Vector3d d = points.col(i) - mean;
+      const Eigen::Matrix3d square = d * d.transpose();
+      second += square;
+      for (int k = 0; k < 3; ++k)
+        third[k] += square * d[k];
+    }
+  if (!second.allFinite())
+    return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second / double(count));
+  frame.deviations = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (!(frame.deviations[2] > 1e-150) || !std::isfinite(frame.deviations[2]))
+    return false;
+  frame.origin = mean;
+  frame.scale = frame.deviations[2];
+  frame.axes = eigen.eigenvectors();
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector3d axis = frame.axes.col(k);
+    double cube = 0.0;
+    for (int j = 0; j < 3; ++j)
+      cube += axis[j] * axis.dot(third[j] * axis);
+    if (cube < 0.0)
       frame.axes.col(k) *= -1.0;
+  }
   frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
   return true;
+}
+
+bool isLine(const UnitFrame& frame) {
+  const double largest = frame.origin.cwiseAbs().maxCoeff() + 3.0 * frame.scale;
+  const double rounding = 4.0 * 6e-8 * largest; // of a float that holds a coordinate
+  return frame.deviations[1] <= std::max(rounding, 1e-7 * frame.deviations[2]);
 }
 
 UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
@@ -82,7 +112,7 @@ UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   const Eigen::Matrix3d linear = frame.axes.transpose() / frame.scale;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Vector3d p = linear * (points.col(i) - frame.origin);
-    if (p.allFinite())
+    if (isFinite(p))
       unit.add(
           static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }

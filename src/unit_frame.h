@@ -16,6 +16,7 @@ struct UnitFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();   ///< in the cloud's frame [m]
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< columns, in the cloud's frame
   double scale = 1.0;                                 ///< metres per unit
+  Eigen::Vector3d deviations = Eigen::Vector3d::Ones(); ///< along the axes [m], rising
 
   Eigen::Vector3d toUnit(const Eigen::Vector3d& p) const {
     return axes.transpose() * (p - origin) / scale;
@@ -68,6 +69,10 @@ private:
  * standard deviation along the longest as the unit. \return false for fewer than three
  * finite points or a single place */
 bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points, UnitFrame& frame);
+
+/** \brief Whether the points of a frame lie on a line as far as single-precision
+ * coordinates can tell. */
+bool isLine(const UnitFrame& frame);
 
 /** \brief The finite points in a frame. */
 UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,

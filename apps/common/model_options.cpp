@@ -85,11 +85,14 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
                       options.pca,
                       {{"object", PcaScope::OBJECT}, {"part", PcaScope::PART}},
                       "One rotation for all parts, or one for each");
-  addChoice<CenterRule>(cli,
-                        "--center",
-                        options.center,
-                        {{"region", CenterRule::REGION}, {"mean", CenterRule::MEAN}},
-                        "Centre of a part: its region's, or its points' mean");
+  addChoice<CenterRule>(
+      cli,
+      "--center",
+      options.center,
+      {{"front", CenterRule::FRONT},
+       {"region", CenterRule::REGION},
+       {"mean", CenterRule::MEAN}},
+      "A part's points keep their front, or the centre is the region's or theirs");
 }
 
 void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
@@ -156,7 +159,9 @@ std::string optionsToJson(const ModelOptions& options) {
       e.paper_fit.axis_assignment == AxisAssignment::DEPTH ? "depth" : "best_of_3";
   json["extents"] = e.paper_fit.extents == Extents::EXTREMES ? "extremes" : "quantiles";
   json["pca"] = e.pca == PcaScope::OBJECT ? "object" : "part";
-  json["center"] = e.center == CenterRule::REGION ? "region" : "mean";
+  json["center"] = e.center == CenterRule::FRONT    ? "front"
+                   : e.center == CenterRule::REGION ? "region"
+                                                    : "mean";
   json["exclusive"] = e.exclusive_points;
   json["remove_plane"] = options.remove_plane;
   if (!options.roi.empty())
@@ -217,6 +222,7 @@ struct Selection {
   pcl::IndicesPtr indices = pcl::make_shared<pcl::Indices>();
   bool has_region = false;
   RoiBox region;
+  std::optional<TablePlane> table; ///< where the plane was removed
 };
 
 pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
@@ -254,6 +260,7 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
       tabletop.setCandidates(pointsInImage(cloud, rect));
     if (!tabletop.segment(*selection.indices))
       throw Failure(tabletop.getFailure() + ".");
+    selection.table = tabletop.getPlane();
   } else if (!rect.empty()) {
     RoiEstimator<Point> estimator;
     estimator.setInputCloud(input.cloud);
@@ -355,6 +362,10 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  if (selection.table)
+    result.up = selection.table->normal;
+  else if (result.report.view.table)
+    result.up = result.report.view.table->normal;
 
   ModelFile& file = result.file;
   file.model = model;

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,8 @@ void checkModelOptions(const ModelOptions& options);
 struct ModelResult {
   ModelFile file;
   EstimationReport report;
-  pcl::Indices object; ///< points that were given to the estimation
+  pcl::Indices object;               ///< points that were given to the estimation
+  std::optional<Eigen::Vector3d> up; ///< normal of the table, where one is known
 };
 
 /** \brief Region, plane removal and estimation. \throw Failure if there is no model */

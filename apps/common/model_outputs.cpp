@@ -34,7 +34,10 @@ void writeGraspPoints(const std::string& path,
 void writeSnapshot(const std::string& path,
                    const LoadedCloud& input,
                    const ModelResult& result) {
-  SnapshotRenderer renderer;
+  SnapshotOptions picture;
+  if (result.up)
+    picture.up = *result.up;
+  SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
   renderer.addModel(result.file.model);
   renderer.save(path);

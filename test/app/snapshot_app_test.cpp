@@ -144,8 +144,8 @@ TEST(SnapshotApp, WithoutDisplayAndXvfbOneSentenceNamesTheCure) {
   const Folder folder;
   const std::string model = folder.write("bottle.json", bottleJson());
   const ProgramRun run = runProgram("pcl_sq_snapshot",
-                             {model, "-o", folder / "out.png"},
-                             "env -u DISPLAY PATH=/nonexistent");
+                                    {model, "-o", folder / "out.png"},
+                                    "env -u DISPLAY PATH=/nonexistent");
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.sentences(), 1) << run.err;
   EXPECT_NE(run.err.find("xvfb"), std::string::npos) << run.err;
