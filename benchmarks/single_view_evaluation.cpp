@@ -101,8 +101,8 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
   std::string why;
   ObjectFit fit;
   ObservedObject observed;
-  const bool ok = observeObject(
-                 c.points, c.width, c.height, c.object, c.view, observed, &why);
+  const bool ok =
+      observeObject(c.points, c.width, c.height, c.object, c.view, observed, &why);
   const std::clock_t seen = std::clock();
   if (ok)
     fit = fitObject(observed, settings.fit);
@@ -121,14 +121,17 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
       double sum = 0.0, square = 0.0, n = 0.0;
       for (const SupportPlane& plane :
            observed.evidence(observed.contour, 48, true).silhouette) {
-        const double r = -plane.residual(truth.model.parts[0]) /
-                         plane.sigma * observed.outline_sigma;
-        sum += r;
-        square += r * r;
+        const double out = -plane.residual(truth.model.parts[0]) / plane.sigma *
+                           observed.outline_sigma;
+        sum += out;
+        square += out * out;
         n += 1.0;
       }
-      std::printf("    outline beyond the truth: mean %.2f px, deviation %.2f px of %d\n",
-                  sum / n, std::sqrt(square / n - sum * sum / n / n), int(n));
+      std::printf(
+          "    outline beyond the truth: mean %.2f px, deviation %.2f px of %d\n",
+          sum / n,
+          std::sqrt(square / n - sum * sum / n / n),
+          int(n));
     }
     if (observed.table)
       std::printf("    table sigma %.2f mm, truth sticks out %.2f mm\n",
@@ -136,6 +139,9 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                   -1e3 * (observed.table->normal.dot(truth.model.parts[0].center) +
                           observed.table->offset -
                           truth.model.parts[0].support(observed.table->normal)));
+    std::printf("    misfit of one %.2f, effective %.0f\n",
+                fit.misfit,
+                observed.effective_points);
     for (const SupportFit& part : fit.parts) {
       const Superquadric& m = part.fit.model;
       std::printf("    %s%s%s margin %.1f noise %.2f mm  a %.1f %.1f %.1f e %.2f %.2f "
@@ -169,7 +175,15 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
 
 void printTable(const std::map<std::string, std::vector<Result>>& kinds) {
   std::printf("%-10s %4s %7s %7s %6s %6s %9s %6s %8s %8s\n",
-              "kind", "n", "IoU", "p10", ">.9", ">.8", "surf mm", "exact", "ms med",
+              "kind",
+              "n",
+              "IoU",
+              "p10",
+              ">.9",
+              ">.8",
+              "surf mm",
+              "exact",
+              "ms med",
               "ms max");
   for (const auto& [name, results] : kinds) {
     std::vector<double> iou, ms;
@@ -187,9 +201,16 @@ void printTable(const std::map<std::string, std::vector<Result>>& kinds) {
     std::sort(ms.begin(), ms.end());
     const double n = double(results.size());
     std::printf("%-10s %4zu %7.4f %7.4f %5.0f%% %5.0f%% %9.3f %5.0f%% %8.1f %8.1f\n",
-                name.c_str(), results.size(), sum / n, iou[std::size_t(0.1 * n)],
-                100 * good / n, 100 * fair / n, 1e3 * surface / n, 100 * exact / n,
-                ms[ms.size() / 2], ms.back());
+                name.c_str(),
+                results.size(),
+                sum / n,
+                iou[std::size_t(0.1 * n)],
+                100 * good / n,
+                100 * fair / n,
+                1e3 * surface / n,
+                100 * exact / n,
+                ms[ms.size() / 2],
+                ms.back());
   }
 }
 
@@ -241,13 +262,18 @@ int main(int argc, char** argv) {
       const Truth truth = readTruth(truth_path.string());
       if (!settings.kind.empty() && settings.kind != truth.name)
         continue;
-      const Case c = scene ? readScene(entry, truth, settings)
-                           : readBare(entry, truth, settings);
+      const Case c =
+          scene ? readScene(entry, truth, settings) : readBare(entry, truth, settings);
       const Result r = evaluate(c, truth, settings);
       if (settings.verbose)
         std::printf("%s %s IoU %.4f surface %.3f mm parts %zu/%zu %.1f ms\n",
-                    entry.c_str(), r.name.c_str(), r.scores.iou, 1e3 * r.scores.surface,
-                    r.parts, r.true_parts, r.milliseconds);
+                    entry.c_str(),
+                    r.name.c_str(),
+                    r.scores.iou,
+                    1e3 * r.scores.surface,
+                    r.parts,
+                    r.true_parts,
+                    r.milliseconds);
       kinds[r.name].push_back(r);
       kinds["~all"].push_back(r);
       if (r.true_parts == 1)

@@ -86,9 +86,8 @@ Scores score(const MultiSuperquadric& truth, const MultiSuperquadric& model) {
   int both = 0, any = 0;
   for (int i = 0; i < VOLUME_SAMPLES; ++i) {
     const Eigen::Vector3d p =
-        box.min() +
-        box.sizes().cwiseProduct(
-            Eigen::Vector3d(unit(engine), unit(engine), unit(engine)));
+        box.min() + box.sizes().cwiseProduct(
+                        Eigen::Vector3d(unit(engine), unit(engine), unit(engine)));
     const bool a = truth.contains(p), b = model.contains(p);
     both += a && b;
     any += a || b;

@@ -14,7 +14,9 @@ bool EstimationOptions::isValid(std::string* why) const {
   return check.passed();
 }
 
-EstimationOptions EstimationOptions::paper() { return {}; }
+EstimationOptions EstimationOptions::paper() {
+  return {};
+}
 
 EstimationOptions EstimationOptions::best() {
   EstimationOptions options;

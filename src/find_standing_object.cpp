@@ -8,7 +8,8 @@ namespace pcl_sq {
 namespace {
 
 constexpr int MIN_PIXELS = 100;
-constexpr double JUMP = 0.025;     ///< of the depth: neighbours further apart are two things
+constexpr double JUMP =
+    0.025; ///< of the depth: neighbours further apart are two things
 constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked for
 
 struct Region {
@@ -42,8 +43,8 @@ private:
   }
   void grow(int c, Region& region) {
     const int x = c % left_.width, y = c / left_.width;
-    region.cut = region.cut || x == 0 || y == 0 || x == left_.width - 1 ||
-                 y == left_.height - 1;
+    region.cut =
+        region.cut || x == 0 || y == 0 || x == left_.width - 1 || y == left_.height - 1;
     const float depth = points_(2, c);
     // two pixels far, across missing ones
     for (int dy = -2; dy <= 2; ++dy)
@@ -92,7 +93,8 @@ bool findStandingObject(const Eigen::Matrix3Xf& points,
       const Eigen::Vector3f p = points.col(Eigen::Index(i));
       const auto standing =
           static_cast<float>(detail::standingHeight(plane, double(p.z())));
-      above.cells[i] = plane.normal.cast<float>().dot(p) + float(plane.offset) > standing;
+      above.cells[i] =
+          plane.normal.cast<float>().dot(p) + float(plane.offset) > standing;
     }
     Regions regions(points, above);
     Region best;

@@ -4,6 +4,7 @@
 #include "point_set.h"
 #include "stopwatch.h"
 
+#include <algorithm>
 #include <exception>
 
 #include <omp.h>
@@ -11,6 +12,23 @@
 namespace pcl_sq {
 
 namespace {
+
+/** \brief Where the points begin along a direction, seen from \a origin [m]; a
+ * hundredth of them may be stray. */
+double frontOf(const Eigen::Matrix3Xd& points,
+               const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& direction) {
+  std::vector<double> along;
+  along.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite())
+      along.push_back(direction.dot(points.col(i) - origin));
+  if (along.empty())
+    return 0.0;
+  const auto front = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 100);
+  std::nth_element(along.begin(), front, along.end());
+  return *front;
+}
 
 FitSummary fitPart(const RoiBox& region,
                    const Eigen::Matrix3d& object_rotation,
@@ -24,15 +42,23 @@ FitSummary fitPart(const RoiBox& region,
                : fitSuperquadric(points, options.full_fit);
   }
   // III-B: the region's centre, the principal axes, a1 and a2 from the extents
-  const Eigen::Vector3d center = options.center == CenterRule::MEAN
-                                     ? detail::momentsOf(points).mean
-                                     : region.center();
+  Eigen::Vector3d center = options.center == CenterRule::MEAN
+                               ? detail::momentsOf(points).mean
+                               : region.center();
   const Eigen::Matrix3d rotation =
       options.pca == PcaScope::PART ? principalAxes(points) : object_rotation;
-  const Superquadric initial = initialSuperquadric(
-      points, center, rotation, region.sizes().z(), options.paper_fit);
+  const double depth = region.sizes().z();
+  PaperFitOptions paper = options.paper_fit;
+  if (options.center == CenterRule::FRONT) {
+    const Eigen::Vector3d backwards = rotation.col(2);
+    center += (frontOf(points, center, backwards) + 0.5 * depth) * backwards;
+    paper.keep_front = true;
+    paper.max_depth_ratio = std::min(1.0, paper.max_depth_ratio);
+  }
+  const Superquadric initial =
+      initialSuperquadric(points, center, rotation, depth, paper);
   // Eqs. (5)-(7): e1, e2 and a3
-  return fitSuperquadricPaper(points, initial, options.paper_fit);
+  return fitSuperquadricPaper(points, initial, paper);
 }
 
 } // namespace

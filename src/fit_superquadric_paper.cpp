@@ -185,6 +185,9 @@ FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points
   best.model.epsilon2 = unit.epsilon2;
   const int free_axis = freeAxis(best_shift);
   best.model.semi_axes[free_axis] = unit.semi_axes[free_axis] * frame.scale;
+  if (options.keep_front)
+    best.model.center += (best.model.semi_axes[free_axis] - initial.semi_axes[2]) *
+                         initial.rotation.col(2);
   const auto statistics = detail::surfaceStatistics({{best.model}}, points);
   best.distortion = statistics.distortion;
   best.rms_distance = statistics.rms_distance;

@@ -23,7 +23,7 @@ constexpr std::size_t SWITCHES = 2; ///< other descriptions that are refined
 constexpr double MARGIN = 0.1;      ///< of the likelihood's between coarse and fine
 constexpr double EXACT = 1e-4;      ///< a sigma that only the right shape has
 constexpr double NOTABLE = 1e-3;    ///< smallest gain that starts another round
-constexpr double SETTLED = 0.05;      ///< relative change of sigma that ends the rounds
+constexpr double SETTLED = 0.05;    ///< relative change of sigma that ends the rounds
 constexpr double COARSE_SHRINKAGE = 0.3;
 constexpr double FINE_SHRINKAGE = 0.05;
 

@@ -32,8 +32,7 @@ bool reachesTable(const PieceContext& context, const Eigen::Matrix3Xd& points) {
   std::vector<double> heights;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     heights.push_back(context.observed.table->height(points.col(i)));
-  const auto low =
-      heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
+  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
   std::nth_element(heights.begin(), low, heights.end());
   // the lowest visible points of a body lie somewhat above its bottom's far edge
   return *low < 0.18 * context.observed.extent + 3.0 * context.noise;
@@ -129,7 +128,8 @@ void fitPiece(const PieceContext& context,
                   0.5 * double(evidence.silhouette.size());
 }
 
-std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces) {
+std::size_t assignPoints(const PieceContext& context,
+                         const std::vector<Piece*>& pieces) {
   std::vector<std::vector<int>> points(pieces.size());
   std::size_t changed = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k)

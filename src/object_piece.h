@@ -57,12 +57,13 @@ void fitPiece(const PieceContext& context,
 
 /** \brief Gives each point to the piece with the nearest surface. \return how many
  * points changed their piece */
-std::size_t assignPoints(const PieceContext& context, const std::vector<Piece*>& pieces);
+std::size_t assignPoints(const PieceContext& context,
+                         const std::vector<Piece*>& pieces);
 
 /** \brief Two pieces as one; not fitted. */
 Piece mergePieces(const Piece& a, const Piece& b);
 
 /** \brief Noise of the points from their distance to their neighbours' planes [m]. */
-double localNoise(const Eigen::Matrix3Xd& points);
+double localNoise(const Eigen::Matrix3Xd& points, double effective_points);
 
 } // namespace pcl_sq::detail

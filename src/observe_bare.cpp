@@ -13,7 +13,7 @@ namespace {
 constexpr int MIN_POINTS = 12;
 constexpr std::size_t NEIGHBOUR = 6;
 constexpr double LONELY = 2.5; ///< times the median distance to that neighbour
-constexpr std::size_t MAX_REFERENCE = 3000;
+constexpr std::size_t MAX_POINTS = 3000; ///< looked at and fitted
 
 /** \brief Takes out the points whose neighbours are far: a single one beyond the rim
  * would spoil the outline. */
@@ -21,18 +21,19 @@ void dropLonely(const Observation& o, std::vector<int>& columns) {
   const std::size_t n = columns.size();
   if (n < 10 * NEIGHBOUR)
     return;
-  const std::size_t stride = n / MAX_REFERENCE + 1;
   std::vector<float> distance(n);
   std::vector<float> near;
   for (std::size_t i = 0; i < n; ++i) {
     near.clear();
-    for (std::size_t k = 0; k < n; k += stride)
-      near.push_back((o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
+    for (std::size_t k = 0; k < n; ++k)
+      near.push_back(
+          (o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
     std::nth_element(near.begin(), near.begin() + NEIGHBOUR, near.end());
     distance[i] = std::sqrt(near[NEIGHBOUR]);
   }
   std::vector<float> sorted = distance;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
+  std::nth_element(
+      sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
   const double limit = LONELY * double(sorted[n / 2]);
   std::vector<int> kept;
   for (std::size_t i = 0; i < n; ++i)
@@ -58,6 +59,13 @@ bool observeBare(Observation& o, std::string& why) {
     why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
     return false;
   }
+  if (columns.size() > MAX_POINTS) {
+    std::vector<int> some;
+    const std::size_t step = (columns.size() + MAX_POINTS - 1) / MAX_POINTS;
+    for (std::size_t i = 0; i < columns.size(); i += step)
+      some.push_back(columns[i]);
+    columns.swap(some);
+  }
   dropLonely(o, columns);
   out.columns = columns;
   out.points.resize(3, static_cast<Eigen::Index>(columns.size()));
@@ -73,7 +81,8 @@ bool observeBare(Observation& o, std::string& why) {
   const Eigen::Vector3d mean = out.points.rowwise().mean();
   const double distance = (mean - *o.view.viewpoint).norm();
   if (!(distance > 0.5 * out.extent)) {
-    out.notes.push_back("the viewpoint lies inside the object; its outline is not used");
+    out.notes.push_back(
+        "the viewpoint lies inside the object; its outline is not used");
     return true;
   }
   out.camera = PinholeCamera::lookingAt(*o.view.viewpoint, mean, 500.0);

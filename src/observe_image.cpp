@@ -12,9 +12,10 @@ namespace detail {
 namespace {
 
 constexpr int MIN_POINTS = 30;
-constexpr std::size_t MAX_POINTS = 1500; ///< fitted; neighbours share their errors anyway
-constexpr int RIM_OF_MASK = 1;  ///< pixels beside a mask's outline that are left out
-constexpr int RIM_OF_DEPTH = 3; ///< the same for the fattened rim of stereo matching
+constexpr std::size_t MAX_POINTS =
+    1500;                         ///< fitted; neighbours share their errors anyway
+constexpr int RIM_OF_MASK = 1;    ///< pixels beside a mask's outline that are left out
+constexpr int RIM_OF_DEPTH = 3;   ///< the same for the fattened rim of stereo matching
 constexpr double FATTENING = 1.5; ///< expected dilation of an outline from depth [px]
 constexpr int OCCLUDER_REACH = 6; ///< pixels searched beyond the outline
 
@@ -95,8 +96,8 @@ void findTable(Observation& o, const Bounds& b) {
   const int x0 = std::max(0, b.x0 - margin), x1 = std::min(o.width - 1, b.x1 + margin);
   const int y0 = std::max(0, b.y0 - margin / 3);
   const int y1 = std::min(o.height - 1, b.y1 + margin);
-  const int step = std::max(1, static_cast<int>(std::sqrt(
-                                  double(x1 - x0 + 1) * (y1 - y0 + 1) / 6000.0)));
+  const int step = std::max(
+      1, static_cast<int>(std::sqrt(double(x1 - x0 + 1) * (y1 - y0 + 1) / 6000.0)));
   for (int y = y0; y <= y1; y += step)
     for (int x = x0; x <= x1; x += step) {
       const int c = y * o.width + x;
@@ -162,9 +163,8 @@ void choosePoints(Observation& o, const Bounds& b, int rim) {
   o.out.points.resize(3, static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i)
     o.out.points.col(static_cast<Eigen::Index>(i)) = o.at(chosen[i]);
-  const double independent =
-      area / (o.view.correlation * o.view.correlation) * double(finite) /
-      std::max(1.0, double(finite));
+  const double independent = area / (o.view.correlation * o.view.correlation) *
+                             double(finite) / std::max(1.0, double(finite));
   o.out.effective_points = std::min(double(chosen.size()), independent);
 }
 
@@ -176,8 +176,8 @@ void measure(ObservedObject& observed) {
   const Eigen::Vector3d low = observed.points.rowwise().minCoeff();
   const Eigen::Vector3d high = observed.points.rowwise().maxCoeff();
   observed.extent = 0.5 * (high - low).norm();
-  observed.depth = std::max(
-      1e-9, observed.camera.depthOf(observed.points.rowwise().mean()));
+  observed.depth =
+      std::max(1e-9, observed.camera.depthOf(observed.points.rowwise().mean()));
 }
 
 void checkTable(ObservedObject& observed) {
@@ -196,7 +196,8 @@ void checkTable(ObservedObject& observed) {
   lowest = heights[heights.size() / 50];
   const bool far = lowest > 1.0 * observed.extent;
   if (wrong_side)
-    observed.notes.push_back("the object lies below the table plane, which is left out");
+    observed.notes.push_back(
+        "the object lies below the table plane, which is left out");
   else if (far)
     observed.notes.push_back(
         "the object does not stand on the table plane, which is left out");
@@ -249,8 +250,8 @@ bool observeImage(Observation& o, std::string& why) {
   out.outline_dilation = has_mask ? o.view.mask_dilation : 1.5;
   out.outline_offset = has_mask ? 0.0 : FATTENING;
   // just above the table the cluster ends before the object does
-  const double floor = has_mask || !out.table ? -1e300
-                                              : 3.0 * standingHeight(*out.table, out.depth);
+  const double floor =
+      has_mask || !out.table ? -1e300 : 3.0 * standingHeight(*out.table, out.depth);
   out.contour = contourOf(out.pixels, [&](int x, int y) {
     const int c = y * o.width + x;
     if (!has_mask && o.finite(c) && out.table->height(o.at(c)) < floor)

@@ -19,8 +19,8 @@ bool ViewOptions::isValid(std::string* why) const {
     return refuse("the mask must hold width * height pixels");
   if (viewpoint && !viewpoint->allFinite())
     return refuse("the viewpoint must be finite");
-  if (table && (!(std::abs(table->normal.norm() - 1.0) < 1e-3) ||
-                !std::isfinite(table->offset)))
+  if (table &&
+      (!(std::abs(table->normal.norm() - 1.0) < 1e-3) || !std::isfinite(table->offset)))
     return refuse("the table's normal must have length one and its offset be finite");
   if (!(mask_sigma > 0.0 && mask_sigma <= 20.0))
     return refuse("mask_sigma must lie in (0, 20]");
@@ -45,18 +45,15 @@ const char* toString(OutlineSource source) {
   return "unknown";
 }
 
-SupportEvidence
-ObservedObject::evidence(const std::vector<ContourPoint>& outline_points,
-                         int lines,
-                         bool on_table) const {
+SupportEvidence ObservedObject::evidence(
+    const std::vector<ContourPoint>& outline_points, int lines, bool on_table) const {
   SupportEvidence e;
   if (hasCamera()) {
     for (SilhouetteLine& line : silhouetteLines(outline_points, lines)) {
       line.offset -= outline_offset;
       e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
     }
-    e.dilation_sigma =
-        outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
+    e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
   if (table) {

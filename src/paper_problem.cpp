@@ -9,7 +9,8 @@ PaperProblem::PaperProblem(const UnitPoints& points,
                            const Superquadric& start,
                            int free_axis,
                            const PaperFitOptions& options)
-    : points_(points), start_(start), free_axis_(free_axis), cost_(options.cost) {
+    : points_(points), start_(start), free_axis_(free_axis),
+      keep_front_(options.keep_front), cost_(options.cost) {
   const double a = start.semi_axes[free_axis];
   lower_ << options.min_epsilon, options.min_epsilon,
       std::log(a * options.min_depth_ratio);
@@ -26,6 +27,9 @@ Superquadric PaperProblem::superquadricAt(const Eigen::Vector3d& x) const {
   s.epsilon1 = x[0];
   s.epsilon2 = x[1];
   s.semi_axes[free_axis_] = std::exp(x[2]);
+  if (keep_front_)
+    s.center += (s.semi_axes[free_axis_] - start_.semi_axes[free_axis_]) *
+                s.rotation.col(free_axis_);
   return s;
 }
 
@@ -57,24 +61,34 @@ PaperProblem::Normal PaperProblem::linearise(const Eigen::Vector3d& x) const {
   kernels::Sums sums;
   kernels::kernels().normalEquations(
       points_.view(), toShape(s), residual, kernels::Mixture(), sums);
-  // J = (column of e1, of e2, of ln a_free + slope * residual): three rows of the sums
+  // J = (e1, e2, ln a_free [+ a_free d/d centre] + slope * residual): weighted columns
+  using Weights = Eigen::Matrix<double, kernels::PARAMETERS + 1, 1>;
   constexpr int RESIDUAL = kernels::PARAMETERS;
-  const int columns[3] = {9, 10, 6 + free_axis_};
-  const auto product = [&sums](int i, int j) {
-    return i < j ? sums.products[i][j] : sums.products[j][i];
+  Eigen::Matrix<double, kernels::PARAMETERS + 1, 3> columns;
+  columns.setZero();
+  columns(9, 0) = 1.0;
+  columns(10, 1) = 1.0;
+  columns(6 + free_axis_, 2) = 1.0;
+  columns(RESIDUAL, 2) = factor_slope;
+  if (keep_front_)
+    columns(free_axis_, 2) = s.semi_axes[free_axis_];
+  const auto times = [&sums](const Weights& w) {
+    Weights result;
+    for (int i = 0; i <= RESIDUAL; ++i) {
+      result[i] = 0.0;
+      for (int j = 0; j <= RESIDUAL; ++j)
+        result[i] += w[j] * (i < j ? sums.products[i][j] : sums.products[j][i]);
+    }
+    return result;
   };
-  const auto slope = [&](int k) { return k == 2 ? factor_slope : 0.0; };
-  const double rr = sums.products[RESIDUAL][RESIDUAL];
   const double scale = factor / double(points_.size());
   Normal normal;
-  normal.cost = scale * rr;
+  normal.cost = scale * sums.products[RESIDUAL][RESIDUAL];
   for (int i = 0; i < 3; ++i) {
-    const double ir = product(columns[i], RESIDUAL);
-    normal.gradient[i] = scale * (ir + slope(i) * rr);
+    const Weights row = times(columns.col(i));
+    normal.gradient[i] = scale * row[RESIDUAL];
     for (int j = 0; j < 3; ++j)
-      normal.hessian(i, j) =
-          scale * (product(columns[i], columns[j]) + slope(j) * ir +
-                   slope(i) * product(columns[j], RESIDUAL) + slope(i) * slope(j) * rr);
+      normal.hessian(i, j) = scale * columns.col(j).dot(row);
   }
   return normal;
 }

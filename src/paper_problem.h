@@ -39,6 +39,7 @@ private:
   const UnitPoints& points_;
   Superquadric start_;
   int free_axis_;
+  bool keep_front_;
   Cost cost_;
   Eigen::Vector3d lower_, upper_;
 };

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prism_search.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pcl_sq {
 namespace {
 
-/** Cells farther than this from a prism do not belong to it [cells]. */
-constexpr int FRINGE = 2;
+/** How far a prism's rim reaches, what is nearer belongs to it [cells]: the round sides
+ * of a disc, for example, are no parts of their own. */
+int rimOf(const CellMask& mask) {
+  return std::max(
+      2, static_cast<int>(std::lround(0.1 * std::min(mask.width, mask.height))));
+}
 
 /** Missing cells that outweigh a valid one. With 1, a neck half as wide as its bottle
  * costs nothing and stays in the body's prism; with 2 a row must be two thirds full. */
@@ -80,6 +86,13 @@ int cellsBetween(const CellRect& rect, int x, int y) {
                    y - (rect.y + rect.height - 1)});
 }
 
+/** Whether no cell of \a inner is farther than \a reach from \a outer. */
+bool isWithin(const CellRect& inner, const CellRect& outer, int reach) {
+  return cellsBetween(outer, inner.x, inner.y) <= reach &&
+         cellsBetween(outer, inner.x + inner.width - 1, inner.y + inner.height - 1) <=
+             reach;
+}
+
 bool isInBlock(const CellMask& mask, int x, int y) {
   for (int top = y - 1; top <= y; ++top)
     for (int left = x - 1; left <= x; ++left)
@@ -139,7 +152,11 @@ takeRegions(CellMask rest, const std::vector<CellRect>& rects, double least) {
           std::any_of(rects.begin(), rects.end(), [&](const CellRect& rect) {
             return 2 * intersection(bounds, rect).area() > bounds.area();
           });
-      if (!surrounds && region.count() >= least)
+      const bool is_rim =
+          std::any_of(rects.begin(), rects.end(), [&](const CellRect& rect) {
+            return isWithin(bounds, rect, rimOf(rest));
+          });
+      if (!surrounds && !is_rim && region.count() >= least)
         regions.push_back(bounds);
     }
   return regions;
@@ -148,11 +165,12 @@ takeRegions(CellMask rest, const std::vector<CellRect>& rects, double least) {
 /** Extends each prism to the uncovered cells that are close to it and to no other. */
 void takeFringe(const CellMask& mask, std::vector<CellRect>& rects) {
   const std::vector<CellRect> cores = rects;
+  const int rim = rimOf(mask);
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x) {
       if (!mask(x, y))
         continue;
-      int nearest = FRINGE + 1;
+      int nearest = rim + 1;
       std::size_t prism = 0;
       for (std::size_t r = 0; r < cores.size(); ++r) {
         const int cells = cellsBetween(cores[r], x, y);
@@ -162,7 +180,7 @@ void takeFringe(const CellMask& mask, std::vector<CellRect>& rects) {
           prism = r;
         }
       }
-      if (nearest > 0 && nearest <= FRINGE)
+      if (nearest > 0 && nearest <= rim)
         rects[prism] = boundingRect(rects[prism], {x, y, 1, 1});
     }
 }

@@ -30,8 +30,7 @@ Superquadric dual(const Superquadric& m) {
   const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
   const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
   const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
-  s.semi_axes[0] = s.semi_axes[1] =
-      factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
   s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
   s.rotation *=
       Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -124,6 +123,14 @@ public:
     space.basis.conservativeResize(11, columns);
     run(ShapeClass::ROTATIONAL, t, space, false, true);
   }
+  /** \brief A general fit as it is. */
+  void keep(const Trial& t) {
+    ShapeCandidate c;
+    c.cost = t.cost;
+    c.bic = t.cost + c.parameters * std::log(problem_.observations());
+    c.model = t.model;
+    candidates_.push_back(c);
+  }
   std::vector<ShapeCandidate> take() { return std::move(candidates_); }
 
 private:
@@ -157,7 +164,6 @@ private:
   std::vector<ShapeCandidate> candidates_;
 };
 
-
 /** \brief The best of a model's other descriptions: exponents exchanged, the dual. */
 Trial bestDescription(const SupportProblem& problem, Trial best) {
   for (int round = 0; round < 2; ++round) {
@@ -183,12 +189,16 @@ Trial bestDescription(const SupportProblem& problem, Trial best) {
 
 } // namespace
 
-std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem, const Trial& first) {
+std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
+                                      const Trial& first) {
   const bool choose = problem.options().choose_shape;
   const Trial general = choose ? bestDescription(problem, first) : first;
   Families families(problem, general.sigma);
   const Superquadric& m = general.model;
-  families.fit(ShapeClass::GENERIC, m, -1);
+  if (choose)
+    families.fit(ShapeClass::GENERIC, m, -1);
+  else
+    families.keep(general);
   if (!choose)
     return families.take();
   int standing_axis = -1;

@@ -85,11 +85,14 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
                       options.pca,
                       {{"object", PcaScope::OBJECT}, {"part", PcaScope::PART}},
                       "One rotation for all parts, or one for each");
-  addChoice<CenterRule>(cli,
-                        "--center",
-                        options.center,
-                        {{"region", CenterRule::REGION}, {"mean", CenterRule::MEAN}},
-                        "Centre of a part: its region's, or its points' mean");
+  addChoice<CenterRule>(
+      cli,
+      "--center",
+      options.center,
+      {{"front", CenterRule::FRONT},
+       {"region", CenterRule::REGION},
+       {"mean", CenterRule::MEAN}},
+      "A part's points keep their front, or the centre is the region's or theirs");
 }
 
 void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
@@ -156,7 +159,9 @@ std::string optionsToJson(const ModelOptions& options) {
       e.paper_fit.axis_assignment == AxisAssignment::DEPTH ? "depth" : "best_of_3";
   json["extents"] = e.paper_fit.extents == Extents::EXTREMES ? "extremes" : "quantiles";
   json["pca"] = e.pca == PcaScope::OBJECT ? "object" : "part";
-  json["center"] = e.center == CenterRule::REGION ? "region" : "mean";
+  json["center"] = e.center == CenterRule::FRONT    ? "front"
+                   : e.center == CenterRule::REGION ? "region"
+                                                    : "mean";
   json["exclusive"] = e.exclusive_points;
   json["remove_plane"] = options.remove_plane;
   if (!options.roi.empty())
@@ -172,8 +177,11 @@ nlohmann::ordered_json boxToJson(const RoiBox& box) {
 }
 
 /** \brief What the estimation saw and did, for the model file. */
-std::string reportToJson(const EstimationReport& report) {
+std::string reportToJson(const ModelResult& result) {
+  const EstimationReport& report = result.report;
   nlohmann::ordered_json json;
+  if (result.up)
+    json["up"] = {result.up->x(), result.up->y(), result.up->z()};
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),
@@ -383,7 +391,7 @@ ModelResult makeModel(const LoadedCloud& input,
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
-  file.extra_json = reportToJson(result.report);
+  file.extra_json = reportToJson(result);
   return result;
 }
 

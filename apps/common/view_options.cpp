@@ -95,12 +95,14 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
           "NX,NY,NZ,D",
           "Table n.p + d = 0, n towards the camera; else found in organized clouds");
   cli.parse_complete_callback([&cli, &options, preset] {
+    const auto given = [&cli](const char* name) { // a program may lack the option
+      const CLI::Option* option = cli.get_option_no_throw(name);
+      return option && option->count() > 0;
+    };
     const bool paper_option =
-        std::any_of(std::begin(PAPER_OPTIONS),
-                    std::end(PAPER_OPTIONS),
-                    [&cli](const char* name) { return cli.count(name) > 0; });
+        std::any_of(std::begin(PAPER_OPTIONS), std::end(PAPER_OPTIONS), given);
     const bool paper = *preset == "paper" || (preset->empty() && paper_option);
-    if (paper && cli.count("--decomposition") == 0)
+    if (paper && !given("--decomposition"))
       options.estimation.decomposition = Decomposition::PRISMS;
     if (!paper && options.estimation.decomposition == Decomposition::NONE)
       options.estimation.fit = FitMode::FULL;

@@ -28,8 +28,13 @@ enum class PcaScope {
 
 /** \brief Where a part's superquadric is centred. */
 enum class CenterRule {
-  REGION, ///< x, y of the prism, z of the whole region's depth (III-B, E10)
-  MEAN    ///< the mean of the part's points
+  /** x, y of the prism; the points' front stays in place while a3, at most half of the
+   * region's depth, is estimated: the fit establishes the real depth (III-C). */
+  FRONT,
+  /** x, y of the prism, z of the whole region's depth (III-B, E10). A part that lies
+   * nearer or farther than the region's middle then collapses onto its points. */
+  REGION,
+  MEAN ///< the mean of the part's points
 };
 
 /** \brief Settings of ObjectSurfaceEstimation. */
@@ -40,7 +45,7 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   bool exclusive_points = false; ///< whether a point counts for its smallest prism only
   FitMode fit = FitMode::PAPER;
   PcaScope pca = PcaScope::OBJECT;
-  CenterRule center = CenterRule::REGION;
+  CenterRule center = CenterRule::FRONT;
   PaperFitOptions paper_fit;   ///< for FitMode::PAPER
   FitOptions full_fit;         ///< for FitMode::FULL
   ViewOptions view;            ///< for Decomposition::PARTS: what is known of the view

@@ -37,7 +37,10 @@ struct PCL_SQ_EXPORTS PaperFitOptions {
   double max_epsilon = 1.9;     ///< upper bound of both exponents, [1, 2]
   double min_depth_ratio = 0.2; ///< lower bound of a3 over its start, (0, 1]
   double max_depth_ratio = 1.5; ///< upper bound of a3 over its start, [1, 10]
-  int max_iterations = 50;      ///< of Levenberg-Marquardt, [1, 1000]
+  /** \brief Whether the start's front stays in place while a3 is estimated, the centre
+   * moving with it, instead of the centre. */
+  bool keep_front = false;
+  int max_iterations = 50; ///< of Levenberg-Marquardt, [1, 1000]
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */

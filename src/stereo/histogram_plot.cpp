@@ -12,9 +12,11 @@ namespace {
 
 const cv::Scalar INK(60, 60, 60), BAR(190, 190, 185), CHOSEN(60, 120, 230);
 
-void write(cv::Mat& picture, const cv::Point& at, const std::string& text, double size) {
-  cv::putText(
-      picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, INK, 1, cv::LINE_AA);
+void write(cv::Mat& picture,
+           const cv::Point& at,
+           const std::string& text,
+           double size) {
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, INK, 1, cv::LINE_AA);
 }
 
 std::string format(const char* pattern, double value) {
@@ -53,7 +55,8 @@ cv::Mat plotDepthHistogram(const DepthHistogram& histogram,
   for (int bin = first; bin <= last; ++bin) {
     const bool chosen = bin >= histogram.first_bin && bin <= histogram.last_bin;
     const double count = counts[static_cast<std::size_t>(bin)];
-    const cv::Point top(x(bin), y(count)), bottom(std::max(x(bin), x(bin + 1) - 2), y(0));
+    const cv::Point top(x(bin), y(count)),
+        bottom(std::max(x(bin), x(bin + 1) - 2), y(0));
     cv::rectangle(picture, top, bottom, chosen ? CHOSEN : BAR, cv::FILLED);
   }
   cv::line(picture, {plot.x, y(0)}, {plot.x + plot.width, y(0)}, INK);

@@ -183,8 +183,9 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
   part.copyTo(mask(window));
   const cv::Rect found = cv::boundingRect(detail::largestComponents(mask));
   if (found.area() < 0.4 * inside.area()) {
-    PCL_WARN("[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
-             "its surroundings; the whole box is used.\n");
+    PCL_WARN(
+        "[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
+        "its surroundings; the whole box is used.\n");
     mask(inside).setTo(255);
   }
   return finish("segmentBox", mask, segment);

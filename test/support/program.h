@@ -27,8 +27,8 @@ struct ProgramRun {
 /** \brief Runs one of our programs.
  * \param[in] before shell text in front of it, for example "ulimit -v 500000;" */
 inline ProgramRun runProgram(const std::string& name,
-                      const std::vector<std::string>& arguments,
-                      const std::string& before = "") {
+                             const std::vector<std::string>& arguments,
+                             const std::string& before = "") {
   const Folder folder;
   std::string command = before + " '" PCL_SQ_BIN_DIR "/" + name + "'";
   for (const std::string& argument : arguments)

@@ -269,7 +269,7 @@ TEST(PrismScan, FindsTheRectangleOfLargestSurplusByBruteForce) {
             int sum = 0;
             for (int j = y; j < y + h; ++j)
               for (int i = x; i < x + w; ++i)
-                sum += random(i, j) ? 1 : -1;
+                sum += random(i, j) ? 1 : -2;
             best = std::max(best, sum);
           }
     PrismOptions options;
@@ -278,7 +278,7 @@ TEST(PrismScan, FindsTheRectangleOfLargestSurplusByBruteForce) {
     int sum = 0;
     for (int j = first.y; j < first.y + first.height; ++j)
       for (int i = first.x; i < first.x + first.width; ++i)
-        sum += random(i, j) ? 1 : -1;
+        sum += random(i, j) ? 1 : -2;
     // cells at the border may have been added to it since
     EXPECT_LE(sum, best);
     EXPECT_GE(first.area(), best);
