@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Data,
                                            PairCase{"recycle", 0.72},
                                            PairCase{"artl", 0.55},
                                            PairCase{"motorcycle", 0.72}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(OpenCvCalibration, RowsAgreeAndChessboardSquaresHaveTheirLength) {
   const std::string folder = DATA + "/stereo/opencv_calib/";
@@ -187,4 +187,4 @@ INSTANTIATE_TEST_SUITE_P(
     Data,
     RenderedPairs,
     ::testing::Values("mustard_bottle", "mug", "cracker_box", "apple"),
-    [](const auto& info) { return std::string(info.param); });
+    [](const auto& test) { return std::string(test.param); });

@@ -71,7 +71,7 @@ TEST_P(SceneObjects, AreClosedAndStandOnTheTable) {
 INSTANTIATE_TEST_SUITE_P(All,
                          SceneObjects,
                          ::testing::ValuesIn(app::objectNames()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(SceneRenderer, TheBottleIsThatOfTableOne) {
   const Eigen::Vector3d size = app::makeObject("bottle").box().sizes();
