@@ -51,8 +51,7 @@ const Superquadric* axisOf(const Piece& piece) {
 
 void fitInFull(const PieceContext& context, Split& s) {
   // without an outline only many starts find a part of a full cloud
-  const Effort effort =
-      context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
+  const Effort effort = context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
   fitPiece(context, s.first, effort);
   fitPiece(context, s.second, effort, axisOf(s.first));
   s.score = s.first.score + s.second.score;

@@ -139,8 +139,6 @@ StereoIntrinsics plainIntrinsics(const Contents& c, double unit) {
     k.cy = c.number({"cy"});
     k.baseline *= unit;
   }
-  if (std::isnan(k.baseline))
-    raise("baseline is missing or not a number; add it to the calibration file.");
   return k;
 }
 
@@ -198,6 +196,8 @@ StereoCalibration StereoCalibration::load(const std::vector<std::string>& files,
     raise("'" + files.front() +
           "' has neither M1 D1 M2 D2 R T nor P1 P2 nor f, cx, cy, baseline; give a "
           "calibration file (two when intrinsics and extrinsics are apart).");
+  if (std::isnan(k.baseline))
+    raise("baseline is missing or not a number; add it to the calibration file.");
   return fromRectified(k);
 }
 

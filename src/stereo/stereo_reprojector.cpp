@@ -121,10 +121,23 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     share = static_cast<double>(cv::countNonZero(disparity == disparity)) /
             static_cast<double>(disparity.total());
   }
+<<<<<<< HEAD
   // a range that reaches below zero matches exchanged images too, so the share says
   // nothing; the vote is taken on small images
   if (options_.check_order && imagesSeemSwapped(left, right))
     raise("the images match only the other way round; exchange left and right.");
+=======
+  // The vote costs two more matchings, so it is asked only when there is doubt: little
+  // matches, or nearly everything on the far side of where the optical axes cross.
+  const double negative = disparity.empty()
+                              ? 0.0
+                              : static_cast<double>(cv::countNonZero(disparity < 0.0)) /
+                                    std::max(1.0, share * double(left.total()));
+  const bool doubt = share < 0.4 || (options_.max_depth == 0.0 && negative > 0.9);
+  if (options_.check_order && doubt && imagesSeemSwapped(left, right))
+    raise("the images match only the other way round; exchange left and right (or, if "
+          "all is really beyond the crossing of the axes, give the depth range).");
+>>>>>>> stereo
   if (share < 0.005)
     raise("nothing matches: the images have no texture, or the depth range or the "
           "calibration is wrong; check them.");
