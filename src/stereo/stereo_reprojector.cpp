@@ -121,12 +121,6 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     share = static_cast<double>(cv::countNonZero(disparity == disparity)) /
             static_cast<double>(disparity.total());
   }
-<<<<<<< HEAD
-  // a range that reaches below zero matches exchanged images too, so the share says
-  // nothing; the vote is taken on small images
-  if (options_.check_order && imagesSeemSwapped(left, right))
-    raise("the images match only the other way round; exchange left and right.");
-=======
   // The vote costs two more matchings, so it is asked only when there is doubt: little
   // matches, or nearly everything on the far side of where the optical axes cross.
   const double negative = disparity.empty()
@@ -137,7 +131,6 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
   if (options_.check_order && doubt && imagesSeemSwapped(left, right))
     raise("the images match only the other way round; exchange left and right (or, if "
           "all is really beyond the crossing of the axes, give the depth range).");
->>>>>>> stereo
   if (share < 0.005)
     raise("nothing matches: the images have no texture, or the depth range or the "
           "calibration is wrong; check them.");
