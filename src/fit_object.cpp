@@ -50,8 +50,11 @@ const Superquadric* axisOf(const Piece& piece) {
 }
 
 void fitInFull(const PieceContext& context, Split& s) {
-  fitPiece(context, s.first, Effort::AGAIN);
-  fitPiece(context, s.second, Effort::AGAIN, axisOf(s.first));
+  // without an outline only many starts find a part of a full cloud
+  const Effort effort =
+      context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
+  fitPiece(context, s.first, effort);
+  fitPiece(context, s.second, effort, axisOf(s.first));
   s.score = s.first.score + s.second.score;
   // the cut is only where the parts were looked for: the surfaces say what is whose
   const int rounds =

@@ -4,6 +4,7 @@
 #include "model_options.h"
 
 #ifdef PCL_SQ_HAVE_OPENCV
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #endif
 
@@ -30,6 +31,8 @@ const char* const PAPER_OPTIONS[] = {"--fit",
 
 #ifdef PCL_SQ_HAVE_OPENCV
 CellMask readMask(const std::string& path) {
+  // OpenCV would add a warning of its own
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty())
     throw Failure("'" + path + "' is no image that can be read; --mask wants a PNG.");

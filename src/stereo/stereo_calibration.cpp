@@ -146,8 +146,8 @@ void StereoCalibration::checkImages(const cv::Mat& left, const cv::Mat& right) c
   // Without a size in the file the principal point tells: it is near the middle.
   const double cx = isRectified() ? intrinsics_.cx : raw_.M1.at<double>(0, 2);
   const double cy = isRectified() ? intrinsics_.cy : raw_.M1.at<double>(1, 2);
-  if ((width == 0 || height == 0) && (cx < 0.2 * left.cols || cx > 0.8 * left.cols ||
-                                      cy < 0.2 * left.rows || cy > 0.8 * left.rows))
+  if ((width == 0 || height == 0) && (cx < 0.25 * left.cols || cx > 0.75 * left.cols ||
+                                      cy < 0.25 * left.rows || cy > 0.75 * left.rows))
     raise("rectify",
           "the principal point (" + std::to_string(cx) + ", " + std::to_string(cy) +
               ") is far from the middle of the images of " +

@@ -121,8 +121,9 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     share = static_cast<double>(cv::countNonZero(disparity == disparity)) /
             static_cast<double>(disparity.total());
   }
-  // the vote costs two more matchings, so it is asked only when there is doubt
-  if (options_.check_order && share < 0.4 && imagesSeemSwapped(left, right))
+  // a range that reaches below zero matches exchanged images too, so the share says
+  // nothing; the vote is taken on small images
+  if (options_.check_order && imagesSeemSwapped(left, right))
     raise("the images match only the other way round; exchange left and right.");
   if (share < 0.005)
     raise("nothing matches: the images have no texture, or the depth range or the "
