@@ -7,6 +7,7 @@
 #include "pcl_sq/stereo/texture_border_filter.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
@@ -16,6 +17,8 @@ namespace pcl_sq::app {
 namespace {
 
 cv::Mat loadImage(const std::string& path, int flags = cv::IMREAD_COLOR) {
+  // the sentence below says it; OpenCV's own warnings would be a second one
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const cv::Mat image = cv::imread(path, flags);
   if (image.empty())
     throw Failure("cannot read the image '" + path +
