@@ -99,6 +99,8 @@ bool findCorners(const std::string& path,
                  const cv::Size& board,
                  cv::Size& size,
                  std::vector<cv::Point2f>& corners) {
+  // OpenCV would add a warning of its own
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty())
     throw Failure("cannot read the image '" + path + "'.");

@@ -2,6 +2,7 @@
 // Point clouds in, unions of superquadrics out.
 #include "app.h"
 #include "files.h"
+#include "grasp_output.h"
 #include "model_options.h"
 
 #include "pcl_sq/stage_timer.h"
@@ -21,12 +22,15 @@ const char* const EXAMPLES =
     "  pcl_sq_fit scene.pcd --remove-plane --mesh object.ply\n"
     "  pcl_sq_fit kinect.pcd --roi 250,200,140,180 --grasp-points grasp.pcd\n"
     "  pcl_sq_fit can.ply --decomposition none\n"
+    "  pcl_sq_fit scene.pcd --mask mask.png --grasps 20 --gripper wsg_50 -o cup.json\n"
     "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n";
 
 struct Arguments {
   std::vector<std::string> clouds;
   bool jsonl = false;
+  int grasps = 0;
   app::ModelOptions options;
+  app::GraspOptions grasp_options;
 };
 
 app::ModelResult fit(const std::string& path,
@@ -38,12 +42,35 @@ app::ModelResult fit(const std::string& path,
   return app::makeModel(input, path, options, timings.back().second);
 }
 
+GraspPlan planOn(const app::LoadedCloud& input,
+                 const Arguments& arguments,
+                 const ModelFile& file,
+                 double& milliseconds) {
+  app::GraspOptions options = arguments.grasp_options;
+  options.planner.count = std::size_t(arguments.grasps);
+  options.viewpoint = arguments.options.viewpoint;
+  GraspScene scene = app::makeScene(options, file);
+  scene.has_viewpoint = true; // the origin unless told otherwise
+  scene.cloud = app::columnsOf(input);
+  return app::planGrasps(file.model, scene, options, milliseconds);
+}
+
 int fitOne(const Arguments& arguments) {
   app::LoadedCloud input;
-  const app::ModelResult result = fit(arguments.clouds[0], arguments.options, input);
+  app::ModelResult result = fit(arguments.clouds[0], arguments.options, input);
+  GraspPlan plan;
+  double plan_ms = 0.0;
+  if (arguments.grasps > 0) {
+    plan = planOn(input, arguments, result.file, plan_ms);
+    app::addGrasps(plan, arguments.grasp_options, result.file);
+  }
   app::writeOutputs(input, result, arguments.options);
   if (!app::quiet())
     app::printSummary(result);
+  if (arguments.grasps > 0 && !plan.ok())
+    throw app::Failure(plan.failure); // the model is written all the same
+  if (arguments.grasps > 0 && !app::quiet())
+    app::printGrasps(plan, arguments.grasp_options, plan_ms);
   return app::DONE;
 }
 
@@ -100,10 +127,12 @@ int checkedFit(const Arguments& arguments) {
                               !options.snapshot.empty();
   if (arguments.clouds.size() > 1 && !arguments.jsonl)
     throw app::UsageError("several clouds need --jsonl, one JSON line for each.");
-  if (arguments.jsonl && single_outputs)
+  if (arguments.jsonl && (single_outputs || arguments.grasps > 0))
     throw app::UsageError(
-        "--jsonl goes with -o alone; --mesh, --grasp-points and --snapshot are for one "
-        "cloud.");
+        "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps and --snapshot "
+        "are for one cloud.");
+  if (arguments.grasps > 0)
+    app::checkGraspOptions(arguments.grasp_options);
   app::checkModelOptions(options);
   return arguments.jsonl ? fitMany(arguments) : fitOne(arguments);
 }
@@ -126,6 +155,12 @@ int main(int argc, char** argv) {
                      arguments.jsonl,
                      "One JSON line per cloud, on stdout or in -o; clouds in parallel");
         app::addModelOptions(cli, arguments.options);
+        cli.add_option("--grasps",
+                       arguments.grasps,
+                       "Number of ranked grasps to add to the model file")
+            ->check(CLI::Range(0, 10000))
+            ->capture_default_str();
+        app::addGripperOptions(cli, arguments.grasp_options);
       },
       [&] { return checkedFit(arguments); });
 }

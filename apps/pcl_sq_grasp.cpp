@@ -21,16 +21,7 @@ const char* const EXAMPLES =
 struct Input {
   ModelFile file;
   Eigen::Matrix3Xd cloud; ///< the whole scene; 3 x 0 without one
-  bool has_plane = false;
-  TablePlane plane;
 };
-
-Eigen::Matrix3Xd columns(const app::LoadedCloud& input) {
-  Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
-  for (std::size_t i = 0; i < input.cloud->size(); ++i)
-    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
-  return points;
-}
 
 Input loadInput(const std::string& path,
                 const std::string& cloud_path,
@@ -41,7 +32,7 @@ Input loadInput(const std::string& path,
     if (!fromJson(app::readFile(path), input.file, &why))
       throw app::Failure("'" + path + "' is not a model: " + why + ".");
     if (!cloud_path.empty())
-      input.cloud = columns(app::loadCloud(cloud_path));
+      input.cloud = app::columnsOf(app::loadCloud(cloud_path));
     return input;
   }
   if (!cloud_path.empty())
@@ -49,17 +40,34 @@ Input loadInput(const std::string& path,
         "--cloud goes with a model file; the input is a cloud itself");
   const app::LoadedCloud cloud = app::loadCloud(path);
   input.file = app::makeModel(cloud, path, model_options, 0.0).file;
-  input.cloud = columns(cloud);
-  if (model_options.remove_plane) {
-    std::vector<int> object;
-    input.has_plane = findTabletopObject(input.cloud.cast<float>(),
-                                         Eigen::Vector3f::Zero(),
-                                         {},
-                                         model_options.tabletop,
-                                         input.plane,
-                                         object);
-  }
+  input.cloud = app::columnsOf(cloud);
   return input;
+}
+
+int plan(const std::string& input_path,
+         const std::string& cloud_path,
+         const app::ModelOptions& model_options,
+         app::GraspOptions& options) {
+  options.table = model_options.table;
+  options.viewpoint = model_options.viewpoint;
+  app::checkGraspOptions(options);
+  app::checkModelOptions(model_options);
+  const Input input = loadInput(input_path, cloud_path, model_options);
+  GraspScene scene = app::makeScene(options, input.file);
+  scene.cloud = input.cloud;
+  if (scene.cloud.cols() > 0)
+    scene.has_viewpoint = true; // unless told otherwise a cloud's frame is its camera's
+  double milliseconds = 0.0;
+  const GraspPlan plan =
+      app::planGrasps(input.file.model, scene, options, milliseconds);
+  if (!plan.ok())
+    throw app::Failure(plan.failure);
+  const std::string json = app::graspsToJson(
+      plan, scene, options, input.file.frame, input_path, milliseconds);
+  app::writeGraspOutputs(input.file.model, plan, scene, options, json);
+  if (!app::quiet())
+    app::printGrasps(plan, options, milliseconds);
+  return app::DONE;
 }
 
 } // namespace
@@ -68,8 +76,6 @@ int main(int argc, char** argv) {
   std::string input_path, cloud_path;
   app::GraspOptions options;
   app::ModelOptions model_options;
-  model_options.estimation.fit = FitMode::FULL;
-  model_options.estimation.decomposition = Decomposition::NONE;
   return app::run(
       argc,
       argv,
@@ -82,46 +88,24 @@ int main(int argc, char** argv) {
         cli.add_option("input", input_path, "Model (JSON) or point cloud")
             ->required()
             ->type_name("FILE");
-        cli.add_option("-o,--output", options.output, "Grasps as JSON")
-            ->type_name("FILE");
+        app::addGraspOutputOptions(cli, options);
+        app::addGripperOptions(cli, options);
         cli.add_option("--cloud",
                        cloud_path,
                        "The scene of a model file: what was seen, what is in the way")
             ->type_name("FILE");
-        cli.add_flag("--remove-plane",
-                     model_options.remove_plane,
-                     "The object of a cloud stands on the largest plane");
+        app::addViewOptions(cli, model_options);
         cli.add_option(
                "--roi", model_options.roi, "Object in the image of a cloud [px]")
             ->expected(4)
             ->delimiter(',')
             ->type_name("X,Y,W,H");
+        cli.add_flag("--remove-plane",
+                     model_options.remove_plane,
+                     "The object of a cloud stands on its largest plane");
         cli.add_option("--threads", model_options.threads, "For the fit, 0: all cores")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
-        app::addGraspOptions(cli, options);
       },
-      [&] {
-        app::checkGraspOptions(options);
-        app::checkModelOptions(model_options);
-        const Input input = loadInput(input_path, cloud_path, model_options);
-        GraspScene scene = app::makeScene(options);
-        scene.cloud = input.cloud;
-        if (scene.cloud.cols() > 0 && !scene.has_viewpoint)
-          scene.has_viewpoint = true; // a cloud's frame is its camera's
-        if (!scene.has_table && input.has_plane) {
-          scene.has_table = true;
-          scene.table_normal = input.plane.normal;
-          scene.table_offset = input.plane.offset;
-        }
-        double milliseconds = 0.0;
-        const GraspPlan plan =
-            app::planGrasps(input.file.model, scene, options, milliseconds);
-        const std::string json = app::graspsToJson(
-            plan, scene, options, input.file.frame, input_path, milliseconds);
-        app::writeGraspOutputs(input.file.model, plan, scene, options, json);
-        if (!app::quiet())
-          app::printGrasps(plan, options, milliseconds);
-        return int(app::DONE);
-      });
+      [&] { return plan(input_path, cloud_path, model_options, options); });
 }

@@ -7,7 +7,10 @@
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
+#include <optional>
 
 using namespace pcl_sq;
 
@@ -23,7 +26,7 @@ const char* const EXAMPLES =
     "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
 
 struct Arguments {
-  std::string model, cloud, output, size = "1280x960", view = "iso", up = "-y";
+  std::string model, cloud, output, size = "1280x960", view = "iso", up;
   int turntable = 0;
   SnapshotOptions options;
 };
@@ -64,9 +67,11 @@ void configure(CLI::App& cli, Arguments& a) {
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
       ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
-  cli.add_option("--up", a.up, "Upward axis of the cloud; cameras have y down")
-      ->type_name("x|-x|y|-y|z|-z|X,Y,Z")
-      ->capture_default_str();
+  cli.add_option("--up",
+                 a.up,
+                 "Upward direction; if not given, the table's normal that the model "
+                 "file tells, else -y: cameras have y down")
+      ->type_name("x|-x|y|-y|z|-z|X,Y,Z");
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
@@ -93,7 +98,8 @@ void check(Arguments& a) {
   if (a.model.empty() && a.cloud.empty())
     throw app::UsageError("there is nothing to show; give a model, --cloud or both.");
   parseSize(a.size, a.options);
-  a.options.up = parseUp(a.up);
+  if (!a.up.empty())
+    a.options.up = parseUp(a.up);
   std::string why;
   if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
     throw app::UsageError(why + ".");
@@ -101,6 +107,20 @@ void check(Arguments& a) {
     throw app::UsageError("'" + a.output +
                           "' does not end in .png, the one format of pictures.");
   app::checkWritable(a.output);
+}
+
+/** \brief The upward direction that pcl_sq_fit found, if it found one. */
+std::optional<Eigen::Vector3d> upOf(const ModelFile& file) {
+  const auto extra = nlohmann::json::parse(file.extra_json);
+  const auto up =
+      extra.value(nlohmann::json::json_pointer("/report/up"), nlohmann::json::array());
+  if (!up.is_array() || up.size() != 3 || !up[0].is_number() || !up[1].is_number() ||
+      !up[2].is_number())
+    return std::nullopt;
+  const Eigen::Vector3d direction(up[0], up[1], up[2]);
+  if (!(direction.norm() > 1e-6))
+    return std::nullopt;
+  return direction;
 }
 
 int takePictures(const Arguments& a) {
@@ -111,6 +131,11 @@ int takePictures(const Arguments& a) {
     if (!fromJson(app::readFile(a.model), file, &why))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
     renderer.addModel(file.model);
+    if (const auto up = upOf(file); up && a.up.empty()) {
+      SnapshotOptions options = a.options;
+      options.up = *up;
+      renderer.setOptions(options);
+    }
   }
   if (!a.cloud.empty())
     app::addCloud(renderer, app::loadCloud(a.cloud));

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <random>
@@ -156,8 +157,14 @@ MultiSuperquadric principalBox(const Eigen::Matrix3Xd& all) {
   if (box.rotation.determinant() < 0.0)
     box.rotation.col(0) *= -1.0;
   const Eigen::Matrix3Xd local = box.rotation.transpose() * centred;
-  const Eigen::Vector3d low = local.rowwise().minCoeff(),
-                        high = local.rowwise().maxCoeff();
+  Eigen::Vector3d low, high; // 1 % left out on each side
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> row(std::size_t(local.cols()));
+    Eigen::VectorXd::Map(row.data(), local.cols()) = local.row(k);
+    std::sort(row.begin(), row.end());
+    low[k] = row[row.size() / 100];
+    high[k] = row[row.size() - 1 - row.size() / 100];
+  }
   box.semi_axes = (0.5 * (high - low)).cwiseMax(1e-3);
   box.center = mean + box.rotation * (0.5 * (low + high));
   box.epsilon1 = box.epsilon2 = 0.1;

@@ -121,10 +121,10 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
       double sum = 0.0, square = 0.0, n = 0.0;
       for (const SupportPlane& plane :
            observed.evidence(observed.contour, 48, true).silhouette) {
-        const double pixels = -plane.residual(truth.model.parts[0]) / plane.sigma *
-                              observed.outline_sigma;
-        sum += pixels;
-        square += pixels * pixels;
+        const double out = -plane.residual(truth.model.parts[0]) / plane.sigma *
+                           observed.outline_sigma;
+        sum += out;
+        square += out * out;
         n += 1.0;
       }
       std::printf(
@@ -139,6 +139,9 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                   -1e3 * (observed.table->normal.dot(truth.model.parts[0].center) +
                           observed.table->offset -
                           truth.model.parts[0].support(observed.table->normal)));
+    std::printf("    misfit of one %.2f, effective %.0f\n",
+                fit.misfit,
+                observed.effective_points);
     for (const SupportFit& part : fit.parts) {
       const Superquadric& m = part.fit.model;
       std::printf("    %s%s%s margin %.1f noise %.2f mm  a %.1f %.1f %.1f e %.2f %.2f "

@@ -14,7 +14,7 @@ namespace {
 using namespace detail;
 
 constexpr double MIN_GAIN = 10.0; ///< of the score, for one more part
-constexpr double GOOD_FIT = 1.35; ///< cost per observation of a part that needs no cut
+constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs no cut
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
 constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
@@ -50,8 +50,10 @@ const Superquadric* axisOf(const Piece& piece) {
 }
 
 void fitInFull(const PieceContext& context, Split& s) {
-  fitPiece(context, s.first, Effort::FULL);
-  fitPiece(context, s.second, Effort::FULL, axisOf(s.first));
+  // without an outline only many starts find a part of a full cloud
+  const Effort effort = context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
+  fitPiece(context, s.first, effort);
+  fitPiece(context, s.second, effort, axisOf(s.first));
   s.score = s.first.score + s.second.score;
   // the cut is only where the parts were looked for: the surfaces say what is whose
   const int rounds =
@@ -131,8 +133,9 @@ bool ObjectFitOptions::isValid(std::string* why) const {
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
   ObjectFit fit;
-  const double noise =
-      options.fit.noise > 0.0 ? options.fit.noise : localNoise(observed.points);
+  const double noise = options.fit.noise > 0.0
+                           ? options.fit.noise
+                           : localNoise(observed.points, observed.effective_points);
   PieceContext context{observed, options, 0.0};
   std::vector<Piece> pieces(1, wholePiece(context));
   fitPiece(context, pieces[0], Effort::FULL);
@@ -142,7 +145,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
   if (wanted > 1 && noise > 0.0) {
     context.noise = std::min(noise, pieces[0].fit.noise);
-    fitPiece(context, pieces[0], Effort::FULL);
+    fitPiece(context, pieces[0], Effort::AGAIN);
+    fit.misfit = pieces[0].fit.chosen.cost / observations(context, pieces[0]);
     fit.single_bic = pieces[0].score;
     while (int(pieces.size()) < wanted) {
       Split best;

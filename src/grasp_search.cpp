@@ -153,15 +153,30 @@ Grasp GraspSearch::slid(const Grasp& grasp, double slide) const {
   return moved;
 }
 
-double GraspSearch::bestTableClearance(const Grasp& grasp) const {
+std::vector<OrientedBox> GraspSearch::handAt(const Grasp& grasp) const {
+  Grasp own = grasp; // in the hand's frame, where it is the same for each approach
+  own.rotation.setIdentity();
+  own.position.setZero();
+  for (std::size_t c = 0; c < 2; ++c)
+    own.contacts[c].position =
+        (c == 0 ? 0.5 : -0.5) * grasp.width * Eigen::Vector3d::UnitY();
+  return collision_.boxes(own, opening(grasp, 1.0));
+}
+
+double GraspSearch::bestTableClearance(const Grasp& grasp,
+                                       const std::vector<OrientedBox>& hand) const {
   if (!scene_.has_table)
     return 1.0;
+  const Eigen::Vector3d up = grasp.rotation.transpose() * scene_.table_normal;
+  const double height = scene_.table_normal.dot(grasp.position) + scene_.table_offset;
+  double lowest = 1.0;
+  for (const OrientedBox& box : hand)
+    lowest = std::min(lowest, height - box.support(-up));
   // drawing the hand back moves all of its boxes alike
   const double rise = -grasp.approach().dot(scene_.table_normal);
   const double back =
       rise > 0.0 ? *std::max_element(std::begin(SLIDES), std::end(SLIDES)) : 0.0;
-  return collision_.tableClearance(collision_.boxes(grasp, opening(grasp, 1.0))) +
-         back * gripper_.pad_length * rise;
+  return lowest + back * gripper_.pad_length * rise;
 }
 
 Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
@@ -253,9 +268,10 @@ void GraspSearch::runTwoJaws(GraspPlan& plan) {
       scoreContacts(grasps[i], lines[i].slope, grasps[i].scores.robustness);
       queue.push({grasps[i].scores.total, candidate.index, -1, true});
     } else if (candidate.approach < 0) {
+      const std::vector<OrientedBox> hand = handAt(grasps[i]);
       for (int a = 0; a < options_.approaches; ++a) {
         grasps[i].rotation = handFrame(lines[i].axis, a);
-        const double table = bestTableClearance(grasps[i]);
+        const double table = bestTableClearance(grasps[i], hand);
         scorePose(grasps[i], table);
         if (table < options_.clearance) {
           ++plan.rejections.poses;

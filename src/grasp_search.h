@@ -59,7 +59,11 @@ private:
   Obstruction tryPose(Grasp& grasp, double& table) const;
   /** \brief The hand drawn back so that the contacts lie nearer to the fingertips. */
   Grasp slid(const Grasp& grasp, double slide) const;
-  double bestTableClearance(const Grasp& grasp) const;
+  /** \brief The boxes of two jaws about the grasp's line, in the hand's frame. */
+  std::vector<OrientedBox> handAt(const Grasp& grasp) const;
+  /** \brief Distance to the table where the hand is drawn back if that helps [m]. */
+  double bestTableClearance(const Grasp& grasp,
+                            const std::vector<OrientedBox>& hand) const;
   /** \brief Tests the pose, drawn back if that frees it; on success moves the grasp
    * there and completes its score. */
   bool place(Grasp& grasp, GraspPlan& plan);

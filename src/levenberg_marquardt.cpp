@@ -76,13 +76,23 @@ bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions&
   return false;
 }
 
-/** \brief Shortens a step so that no parameter leaves the model's range of trust. */
-void limit(Vector11& step, const Superquadric& m) {
-  const double size = m.semi_axes.maxCoeff();
-  const double largest = std::max(step.head<3>().cwiseAbs().maxCoeff() / size,
-                                  step.tail<8>().cwiseAbs().maxCoeff());
-  if (largest > TRUST)
-    step *= TRUST / largest;
+/** \brief Shortens the parts of a step that leave the model's range of trust, each for
+ * itself: the spin of a sphere may be anything, which must not hold up its radius.
+ * \return whether a part was shortened */
+bool limit(Vector11& step, const Superquadric& m) {
+  bool limited = false;
+  const auto shorten = [&](int begin, int size, double trust) {
+    const double largest = step.segment(begin, size).cwiseAbs().maxCoeff();
+    if (largest > trust) {
+      step.segment(begin, size) *= trust / largest;
+      limited = true;
+    }
+  };
+  shorten(0, 3, TRUST * m.semi_axes.maxCoeff());
+  shorten(3, 3, TRUST);
+  shorten(6, 3, TRUST);
+  shorten(9, 2, TRUST);
+  return limited;
 }
 
 NormalEquations evaluate(const UnitPoints& points,
@@ -196,12 +206,13 @@ LmResult levenbergMarquardt(const UnitPoints& points,
         break;
       }
       Vector11 full = basis * step.head(n);
-      limit(full, r.model);
+      const bool limited = limit(full, r.model);
       const Superquadric candidate = moved(r.model, full, o);
       const NormalEquations e = evaluate(points, candidate, o);
       if (e.cost < r.equations.cost) {
         const double decrease = r.equations.cost - e.cost;
-        const bool small = decrease <= o.cost_tolerance * r.equations.points_cost;
+        const bool small =
+            !limited && decrease <= o.cost_tolerance * r.equations.points_cost;
         r.model = candidate;
         r.equations = e;
         fresh = true;

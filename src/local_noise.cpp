@@ -11,13 +11,18 @@ namespace {
 
 constexpr Eigen::Index SAMPLES = 100;
 constexpr Eigen::Index MAX_POINTS = 3000;
-constexpr std::size_t NEIGHBOURS = 24;
+constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
+constexpr double SHARING = 5.0; ///< points of one error for which the fewest suffice
 
 } // namespace
 
-double localNoise(const Eigen::Matrix3Xd& points) {
+double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   const Eigen::Index n = points.cols();
-  if (n < Eigen::Index(2 * NEIGHBOURS))
+  // neighbours that share their error hide it: look further
+  const double sharing = double(n) / std::max(1.0, effective_points);
+  const auto neighbours = std::clamp(
+      static_cast<std::size_t>(double(FEWEST) * sharing / SHARING), FEWEST, MOST);
+  if (n < Eigen::Index(2 * neighbours))
     return 0.0;
   std::vector<double> deviations;
   const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
@@ -27,14 +32,15 @@ double localNoise(const Eigen::Matrix3Xd& points) {
     near.clear();
     for (Eigen::Index k = 0; k < n; k += stride)
       near.emplace_back((points.col(k) - points.col(i)).squaredNorm(), k);
-    std::nth_element(near.begin(), near.begin() + NEIGHBOURS, near.end());
+    std::nth_element(
+        near.begin(), near.begin() + std::ptrdiff_t(neighbours), near.end());
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-    for (std::size_t k = 0; k < NEIGHBOURS; ++k)
-      mean += points.col(near[k].second) / double(NEIGHBOURS);
-    for (std::size_t k = 0; k < NEIGHBOURS; ++k) {
+    for (std::size_t k = 0; k < neighbours; ++k)
+      mean += points.col(near[k].second) / double(neighbours);
+    for (std::size_t k = 0; k < neighbours; ++k) {
       const Eigen::Vector3d d = points.col(near[k].second) - mean;
-      square += d * d.transpose() / double(NEIGHBOURS - 3);
+      square += d * d.transpose() / double(neighbours - 3);
     }
     const double smallest =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square, Eigen::EigenvaluesOnly)

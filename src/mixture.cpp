@@ -10,7 +10,6 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr double SQRT_TWO_PI = 2.5066282746310002;
-constexpr double PARAMETERS = 11.0;        ///< as many residuals say nothing of sigma
 constexpr double MIN_OUTLIER_SHARE = 1e-3; ///< so that a point can always become one
 
 } // namespace
@@ -34,9 +33,7 @@ Mixture estimated(const Mixture& before,
   if (limits.fixed_sigma > 0.0)
     m.sigma = limits.fixed_sigma;
   else if (sums.share > 0.0)
-    m.sigma =
-        std::max(std::sqrt(sums.weighted / std::max(sums.share - PARAMETERS, 1.0)),
-                 limits.min_sigma);
+    m.sigma = std::max(std::sqrt(sums.weighted / sums.share), limits.min_sigma);
   m.outlier_share =
       limits.robust ? std::clamp(1.0 - sums.share / double(count),
                                  MIN_OUTLIER_SHARE,

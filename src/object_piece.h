@@ -64,6 +64,6 @@ std::size_t assignPoints(const PieceContext& context,
 Piece mergePieces(const Piece& a, const Piece& b);
 
 /** \brief Noise of the points from their distance to their neighbours' planes [m]. */
-double localNoise(const Eigen::Matrix3Xd& points);
+double localNoise(const Eigen::Matrix3Xd& points, double effective_points);
 
 } // namespace pcl_sq::detail

@@ -13,7 +13,7 @@ namespace {
 constexpr int MIN_POINTS = 12;
 constexpr std::size_t NEIGHBOUR = 6;
 constexpr double LONELY = 2.5; ///< times the median distance to that neighbour
-constexpr std::size_t MAX_REFERENCE = 3000;
+constexpr std::size_t MAX_POINTS = 3000; ///< looked at and fitted
 
 /** \brief Takes out the points whose neighbours are far: a single one beyond the rim
  * would spoil the outline. */
@@ -21,12 +21,11 @@ void dropLonely(const Observation& o, std::vector<int>& columns) {
   const std::size_t n = columns.size();
   if (n < 10 * NEIGHBOUR)
     return;
-  const std::size_t stride = n / MAX_REFERENCE + 1;
   std::vector<float> distance(n);
   std::vector<float> near;
   for (std::size_t i = 0; i < n; ++i) {
     near.clear();
-    for (std::size_t k = 0; k < n; k += stride)
+    for (std::size_t k = 0; k < n; ++k)
       near.push_back(
           (o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
     std::nth_element(near.begin(), near.begin() + NEIGHBOUR, near.end());
@@ -59,6 +58,13 @@ bool observeBare(Observation& o, std::string& why) {
   if (columns.size() < std::size_t(MIN_POINTS)) {
     why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
     return false;
+  }
+  if (columns.size() > MAX_POINTS) {
+    std::vector<int> some;
+    const std::size_t step = (columns.size() + MAX_POINTS - 1) / MAX_POINTS;
+    for (std::size_t i = 0; i < columns.size(); i += step)
+      some.push_back(columns[i]);
+    columns.swap(some);
   }
   dropLonely(o, columns);
   out.columns = columns;

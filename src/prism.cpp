@@ -101,33 +101,41 @@ PrismMembership::PrismMembership(const VoxelLayout& layout,
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return prisms[a].cells.area() < prisms[b].cells.area();
     });
-  // lists of the columns of voxels first: all voxels of a column have the same
-  std::vector<std::uint32_t> column_starts{0}, of_columns;
+  // all voxels of a column lie in the same prisms
+  column_starts_.push_back(0);
   for (int y = 0; y < layout.divisions[1]; ++y)
     for (int x = 0; x < layout.divisions[0]; ++x) {
       for (const std::uint32_t prism : order)
         if (prisms[prism].cells.contains(x, y)) {
-          of_columns.push_back(prism);
+          of_columns_.push_back(prism);
           if (exclusive)
             break;
         }
-      column_starts.push_back(static_cast<std::uint32_t>(of_columns.size()));
+      column_starts_.push_back(static_cast<std::uint32_t>(of_columns_.size()));
     }
   points_.assign(prisms.size(), 0);
-  starts_.reserve(layout.counts.size() + 1);
-  starts_.push_back(0);
+  only_.reserve(layout.counts.size());
   std::size_t column = 0;
   for (const std::uint32_t count : layout.counts) {
-    if (count >= layout.min_points)
-      for (std::uint32_t c = column_starts[column]; c < column_starts[column + 1];
-           ++c) {
-        prisms_.push_back(of_columns[c]);
-        points_[of_columns[c]] += count;
-      }
-    starts_.push_back(static_cast<std::uint32_t>(prisms_.size()));
-    if (++column + 1 == column_starts.size())
+    const std::uint32_t first = column_starts_[column],
+                        end = column_starts_[column + 1];
+    if (++column + 1 == column_starts_.size())
       column = 0;
+    if (count < layout.min_points || first == end) {
+      only_.push_back(NONE);
+      continue;
+    }
+    only_.push_back(end - first == 1 ? of_columns_[first] : SEVERAL);
+    for (std::uint32_t c = first; c < end; ++c)
+      points_[of_columns_[c]] += count;
   }
+}
+
+PrismMembership::Range PrismMembership::severalOf(std::int32_t voxel) const {
+  const std::size_t column =
+      static_cast<std::size_t>(voxel) % (column_starts_.size() - 1);
+  return {of_columns_.data() + column_starts_[column],
+          of_columns_.data() + column_starts_[column + 1]};
 }
 
 } // namespace pcl_sq

@@ -39,16 +39,18 @@ std::vector<Trial> search(const SupportProblem& p, int& iterations) {
     trials.push_back(p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true));
   }
   std::sort(trials.begin(), trials.end(), cheaper);
-  if (trials.size() > KEPT)
-    trials.resize(KEPT);
+  const bool quick = !p.options().choose_shape;
+  const std::size_t kept = quick ? 1 : KEPT;
+  if (trials.size() > kept)
+    trials.resize(kept);
   double sigma = 1e300;
   for (Trial& t : trials) {
-    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 8);
+    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 8, {}, quick);
     sigma = std::min(sigma, p.sigmaOf(t, p.medium()));
   }
   for (Trial& t : trials) { // compared at one sigma, or the widest would win
     t.sigma = sigma;
-    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 12);
+    t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 12, {}, quick);
     iterations += t.iterations;
   }
   std::sort(trials.begin(), trials.end(), cheaper);

@@ -123,6 +123,14 @@ public:
     space.basis.conservativeResize(11, columns);
     run(ShapeClass::ROTATIONAL, t, space, false, true);
   }
+  /** \brief A general fit as it is. */
+  void keep(const Trial& t) {
+    ShapeCandidate c;
+    c.cost = t.cost;
+    c.bic = t.cost + c.parameters * std::log(problem_.observations());
+    c.model = t.model;
+    candidates_.push_back(c);
+  }
   std::vector<ShapeCandidate> take() { return std::move(candidates_); }
 
 private:
@@ -187,7 +195,10 @@ std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
   const Trial general = choose ? bestDescription(problem, first) : first;
   Families families(problem, general.sigma);
   const Superquadric& m = general.model;
-  families.fit(ShapeClass::GENERIC, m, -1);
+  if (choose)
+    families.fit(ShapeClass::GENERIC, m, -1);
+  else
+    families.keep(general);
   if (!choose)
     return families.take();
   int standing_axis = -1;

@@ -3,7 +3,8 @@
 #include "files.h"
 #include "grasp_output.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include <map>
 #include <sstream>
 
@@ -76,7 +77,7 @@ Gripper readGripper(const std::string& preset_or_path) {
                    presetList() + ", or a .toml file with the sizes");
 }
 
-void addGraspOptions(CLI::App& cli, GraspOptions& options) {
+void addGripperOptions(CLI::App& cli, GraspOptions& options) {
   cli.add_option_function<std::string>(
          "--gripper",
          [&options](const std::string& name) { options.gripper = readGripper(name); },
@@ -87,19 +88,15 @@ void addGraspOptions(CLI::App& cli, GraspOptions& options) {
                  options.planner.friction,
                  "Coefficient between finger and object, 0.05 to 2")
       ->capture_default_str();
-  cli.add_option("--count", options.planner.count, "Most grasps to give")
-      ->capture_default_str();
-  cli.add_option("--table", options.table, "Table's plane, n.p + d = 0 [m]")
-      ->expected(4)
-      ->delimiter(',')
-      ->type_name("NX,NY,NZ,D");
-  cli.add_option("--viewpoint", options.viewpoint, "Camera's position [m]")
-      ->expected(3)
-      ->delimiter(',')
-      ->type_name("X,Y,Z");
   cli.add_option("--clearance",
                  options.planner.clearance,
                  "Least distance of the hand to table and obstacles [m]")
+      ->capture_default_str();
+}
+
+void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
+  cli.add_option("-o,--output", options.output, "Grasps as JSON")->type_name("FILE");
+  cli.add_option("--count", options.planner.count, "Most grasps to give")
       ->capture_default_str();
   cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
       ->type_name("DIR");
@@ -123,19 +120,31 @@ void checkGraspOptions(const GraspOptions& options) {
       checkWritable(path);
 }
 
-GraspScene makeScene(const GraspOptions& options) {
+GraspScene makeScene(const GraspOptions& options, const ModelFile& file) {
   GraspScene scene;
-  if (!options.table.empty()) {
-    const Eigen::Map<const Eigen::Vector3d> normal(options.table.data());
+  std::vector<double> table = options.table;
+  const auto extra = nlohmann::json::parse(file.extra_json);
+  const auto known = nlohmann::json::json_pointer("/report/table");
+  if (table.empty() && extra.contains(known) && extra[known].is_array())
+    table = extra[known].get<std::vector<double>>();
+  if (table.size() == 4) {
+    const Eigen::Map<const Eigen::Vector3d> normal(table.data());
     scene.has_table = true;
     scene.table_normal = normal.normalized();
-    scene.table_offset = options.table[3] / normal.norm();
+    scene.table_offset = table[3] / normal.norm();
   }
   if (!options.viewpoint.empty()) {
     scene.has_viewpoint = true;
     scene.viewpoint = Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data());
   }
   return scene;
+}
+
+Eigen::Matrix3Xd columnsOf(const LoadedCloud& input) {
+  Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
+  for (std::size_t i = 0; i < input.cloud->size(); ++i)
+    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
+  return points;
 }
 
 } // namespace pcl_sq::app

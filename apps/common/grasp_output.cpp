@@ -193,8 +193,6 @@ GraspPlan planGrasps(const MultiSuperquadric& model,
   milliseconds = std::chrono::duration<double, std::milli>(
                      std::chrono::steady_clock::now() - start)
                      .count();
-  if (!plan.ok())
-    throw Failure(plan.failure);
   return plan;
 }
 
@@ -224,6 +222,15 @@ std::string graspsToJson(const GraspPlan& plan,
   json["timings_ms"] = {{"plan", milliseconds}};
   json["generator"] = "pcl_sq " PCL_SQ_VERSION;
   return json.dump(2);
+}
+
+void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& file) {
+  Json extra = Json::parse(file.extra_json);
+  extra["gripper"] = toJson(options.gripper);
+  extra["grasps"] = Json::array();
+  for (const Grasp& grasp : plan.grasps)
+    extra["grasps"].push_back(toJson(grasp));
+  file.extra_json = extra.dump();
 }
 
 void writeGraspOutputs(const MultiSuperquadric& model,

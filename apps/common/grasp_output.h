@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cloud_io.h"
+
 #include "pcl_sq/grasp_planner.h"
+#include "pcl_sq/model_io.h"
 
 #include <CLI/CLI.hpp>
 
@@ -24,8 +27,11 @@ struct GraspOptions {
   GraspOptions();
 };
 
-/** \brief Adds gripper, friction, table, viewpoint and the outputs to a program. */
-void addGraspOptions(CLI::App& cli, GraspOptions& options);
+/** \brief Adds gripper, friction and clearance to a program. */
+void addGripperOptions(CLI::App& cli, GraspOptions& options);
+
+/** \brief Adds the number of grasps and the outputs to a program. */
+void addGraspOutputOptions(CLI::App& cli, GraspOptions& options);
 
 /** \brief Refuses contradictions and files that could not be written later. */
 void checkGraspOptions(const GraspOptions& options);
@@ -34,10 +40,14 @@ void checkGraspOptions(const GraspOptions& options);
  * \throw UsageError naming the presets, or the key that is wrong */
 Gripper readGripper(const std::string& preset_or_path);
 
-/** \brief The scene that the options describe. */
-GraspScene makeScene(const GraspOptions& options);
+/** \brief The scene of a model: table and viewpoint from the options, else the table
+ * that the model file's report tells of. */
+GraspScene makeScene(const GraspOptions& options, const ModelFile& file);
 
-/** \brief Plans. \throw Failure with the planner's reason if there is no grasp */
+/** \brief All points of a cloud as columns. */
+Eigen::Matrix3Xd columnsOf(const LoadedCloud& input);
+
+/** \brief Plans and takes the time; GraspPlan::failure says why there is no grasp. */
 GraspPlan planGrasps(const MultiSuperquadric& model,
                      const GraspScene& scene,
                      const GraspOptions& options,
@@ -50,6 +60,9 @@ std::string graspsToJson(const GraspPlan& plan,
                          const std::string& frame,
                          const std::string& model_path,
                          double milliseconds);
+
+/** \brief Adds "grasps" to the top level of a model file. */
+void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& file);
 
 /** \brief Writes the files that the options name. */
 void writeGraspOutputs(const MultiSuperquadric& model,

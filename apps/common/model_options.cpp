@@ -177,8 +177,11 @@ nlohmann::ordered_json boxToJson(const RoiBox& box) {
 }
 
 /** \brief What the estimation saw and did, for the model file. */
-std::string reportToJson(const EstimationReport& report) {
+std::string reportToJson(const ModelResult& result) {
+  const EstimationReport& report = result.report;
   nlohmann::ordered_json json;
+  if (result.up)
+    json["up"] = {result.up->x(), result.up->y(), result.up->z()};
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),
@@ -388,7 +391,7 @@ ModelResult makeModel(const LoadedCloud& input,
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
-  file.extra_json = reportToJson(result.report);
+  file.extra_json = reportToJson(result);
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include "files.h"
 #include "model_options.h"
 
+#include "pcl_sq/grasp_point_filter.h"
+
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "cloud_picture.h"
 #include "pcl_sq/visualization/mesh_writer.h"
@@ -19,8 +21,13 @@ namespace {
 
 void writeGraspPoints(const std::string& path,
                       const LoadedCloud& input,
+                      const MultiSuperquadric& model,
                       const pcl::Indices& indices) {
-  pcl::PointCloud<pcl::PointXYZRGBA> points(*input.cloud, indices);
+  GraspPointFilter<pcl::PointXYZRGBA> filter;
+  filter.setInputCloud(input.cloud);
+  filter.setModel(model);
+  pcl::PointCloud<PointGrasp> points;
+  filter.describe(indices, points);
   if (points.empty())
     throw Failure("no point lies on the model's surface; '" + path +
                   "' is not written.");
@@ -59,7 +66,8 @@ void writeOutputs(const LoadedCloud& input,
   if (!options.output.empty())
     writeTextFile(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
-    writeGraspPoints(options.grasp_points, input, result.report.grasp_indices);
+    writeGraspPoints(
+        options.grasp_points, input, result.file.model, result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   if (!options.mesh.empty())
     writeMeshFile(options.mesh, result.file.model);

@@ -4,6 +4,7 @@
 #include "model_options.h"
 
 #ifdef PCL_SQ_HAVE_OPENCV
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #endif
 
@@ -30,6 +31,8 @@ const char* const PAPER_OPTIONS[] = {"--fit",
 
 #ifdef PCL_SQ_HAVE_OPENCV
 CellMask readMask(const std::string& path) {
+  // OpenCV would add a warning of its own
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty())
     throw Failure("'" + path + "' is no image that can be read; --mask wants a PNG.");
@@ -95,12 +98,14 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
           "NX,NY,NZ,D",
           "Table n.p + d = 0, n towards the camera; else found in organized clouds");
   cli.parse_complete_callback([&cli, &options, preset] {
+    const auto given = [&cli](const char* name) { // a program may lack the option
+      const CLI::Option* option = cli.get_option_no_throw(name);
+      return option && option->count() > 0;
+    };
     const bool paper_option =
-        std::any_of(std::begin(PAPER_OPTIONS),
-                    std::end(PAPER_OPTIONS),
-                    [&cli](const char* name) { return cli.count(name) > 0; });
+        std::any_of(std::begin(PAPER_OPTIONS), std::end(PAPER_OPTIONS), given);
     const bool paper = *preset == "paper" || (preset->empty() && paper_option);
-    if (paper && cli.count("--decomposition") == 0)
+    if (paper && !given("--decomposition"))
       options.estimation.decomposition = Decomposition::PRISMS;
     if (!paper && options.estimation.decomposition == Decomposition::NONE)
       options.estimation.fit = FitMode::FULL;

@@ -17,7 +17,7 @@ namespace pcl_sq::app {
 namespace {
 
 cv::Mat loadImage(const std::string& path, int flags = cv::IMREAD_COLOR) {
-  // the sentence below says it; OpenCV's own warnings would be a second one
+  // OpenCV would add a warning of its own
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const cv::Mat image = cv::imread(path, flags);
   if (image.empty())

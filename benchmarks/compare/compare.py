@@ -101,23 +101,22 @@ def main():
     sys.path.insert(0, arguments.generators)
     import score
     peers = reference(arguments.generators)
-    results = {}
-    for seed in arguments.seeds:
-        folder = generate(arguments.generators, arguments.out, seed, arguments.n)
-        results[seed] = {name: run(arguments.program, folder, name, arguments.n, score)
-                         for name in arguments.sets}
+    folders = [generate(arguments.generators, arguments.out, seed, arguments.n)
+               for seed in arguments.seeds]
     print("Mean IoU / failures (IoU < .8) / median time; peers at SEED=0.\n")
     print("| set | EMS | oracle (radial) | "
           + " | ".join(f"pcl_sq, SEED={s}" for s in arguments.seeds) + " |")
-    print("|---" * (3 + len(arguments.seeds)) + "|")
+    print("|---" * (3 + len(arguments.seeds)) + "|", flush=True)
+    first = {}
     for name in arguments.sets:
         cells = peers.get(name, ["", ""])
-        for seed in arguments.seeds:
-            r = results[seed][name]
+        for folder in folders:
+            r = run(arguments.program, folder, name, arguments.n, score)
+            first.setdefault(name, r)
             cells = cells + [f"{r['iou']:.4f} / {100 * r['fail']:.0f} % / {r['ms']:.2f} ms"]
-        print(f"| {name} | " + " | ".join(cells) + " |")
+        print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
     if arguments.figure:
-        figure(arguments.figure, results[arguments.seeds[0]], peers)
+        figure(arguments.figure, first, peers)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ struct ObjectFit {
   std::vector<int> labels;       ///< part of each observed point, -1: none
   double bic = 0.0;              ///< of the whole object
   double single_bic = 0.0;       ///< of one superquadric
+  double misfit = 0.0;           ///< cost of one superquadric per independent point
 };
 
 /** \brief Fits one superquadric, or as many as the data ask for.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/multi_superquadric.h"
+#include "pcl_sq/point_grasp.h"
 
 #include <pcl/filters/filter_indices.h>
 
@@ -9,8 +9,9 @@ namespace pcl_sq {
 
 /** \brief What makes a point lie on a superquadric's surface. */
 enum class SurfaceMetric {
-  GAUGE,   ///< |G - 1|, the paper's distance, Eq. (6): relative to the size
-  DISTANCE ///< the first-order distance [m]
+  GAUGE,    ///< |G - 1|, the paper's distance, Eq. (6): relative to the size
+  DISTANCE, ///< the first-order distance [m]
+  SIGMA     ///< the first-order distance over the cloud's noise
 };
 
 /** \brief Keeps the points on the surface of a model (paper, section IV: F = 1): where
@@ -42,7 +43,19 @@ public:
    * >= 0 */
   void setDistanceThreshold(double threshold);
   double getDistanceThreshold() const { return distance_threshold_; }
+  /** \brief Selects SurfaceMetric::SIGMA: the noise is that of the input itself, 1.4826
+   * times the median distance of its points to the surface, so that outliers do not
+   * widen it. \param[in] multiples largest distance over it, >= 0 */
+  void setSigmaThreshold(double multiples);
+  double getSigmaThreshold() const { return sigma_threshold_; }
+  /** \brief Noise found by the last filter() with SurfaceMetric::SIGMA [m]. */
+  double getSigma() const { return sigma_; }
   SurfaceMetric getMetric() const { return metric_; }
+
+  /** \brief Part, normal and residual of points of the input, in the order of
+   * \a indices; NaN stays NaN. \param[out] points header and sensor pose are the
+   * input's; empty without a model */
+  void describe(const pcl::Indices& indices, pcl::PointCloud<PointGrasp>& points) const;
 
 protected:
   using pcl::FilterIndices<PointT>::filter_name_;
@@ -60,6 +73,8 @@ private:
   SurfaceMetric metric_ = SurfaceMetric::GAUGE;
   double gauge_tolerance_ = 0.05;
   double distance_threshold_ = 0.005;
+  double sigma_threshold_ = 2.0;
+  double sigma_ = 0.0;
 };
 
 /** \brief Which points are on the surface of a union of superquadrics.
@@ -71,6 +86,12 @@ onSurface(const MultiSuperquadric& model,
           const Eigen::Ref<const Eigen::Matrix3Xd>& points,
           SurfaceMetric metric,
           double tolerance);
+
+/** \brief Robust standard deviation of the points' distances to a union's surface [m]:
+ * 1.4826 times their median. \param[in] points 3 x N [m]; non-finite columns are left
+ * out \return 0 for no points or no parts */
+PCL_SQ_EXPORTS double surfaceNoise(const MultiSuperquadric& model,
+                                   const Eigen::Ref<const Eigen::Matrix3Xd>& points);
 
 } // namespace pcl_sq
 

@@ -107,15 +107,23 @@ public:
   /** \brief The prisms of a voxel; none if it is not valid.
    * \param[in] voxel as VoxelLayout::indexOf() gives it, not negative */
   Range prismsOf(std::int32_t voxel) const {
-    const auto v = static_cast<std::size_t>(voxel);
-    return {prisms_.data() + starts_[v], prisms_.data() + starts_[v + 1]};
+    // nearly all voxels lie in one prism: one look-up for these
+    const std::uint32_t& only = only_[static_cast<std::size_t>(voxel)];
+    if (only < SEVERAL)
+      return {&only, &only + 1};
+    return only == NONE ? Range{nullptr, nullptr} : severalOf(voxel);
   }
   /** \brief Points of the grid in each prism. */
   const std::vector<std::size_t>& pointsPerPrism() const { return points_; }
 
 private:
-  std::vector<std::uint32_t> starts_; // of each voxel's list in prisms_
-  std::vector<std::uint32_t> prisms_;
+  static constexpr std::uint32_t NONE = 0xffffffff, SEVERAL = 0xfffffffe;
+
+  Range severalOf(std::int32_t voxel) const;
+
+  std::vector<std::uint32_t> only_; // of each voxel: its prism, NONE or SEVERAL
+  std::vector<std::uint32_t> column_starts_; // of each column's list in of_columns_
+  std::vector<std::uint32_t> of_columns_;
   std::vector<std::size_t> points_;
 };
 

@@ -127,8 +127,7 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
                               ? 0.0
                               : static_cast<double>(cv::countNonZero(disparity < 0.0)) /
                                     std::max(1.0, share * double(left.total()));
-  const bool doubt =
-      share < 0.4 || (options_.max_depth == 0.0 && negative > 0.9);
+  const bool doubt = share < 0.4 || (options_.max_depth == 0.0 && negative > 0.9);
   if (options_.check_order && doubt && imagesSeemSwapped(left, right))
     raise("the images match only the other way round; exchange left and right (or, if "
           "all is really beyond the crossing of the axes, give the depth range).");

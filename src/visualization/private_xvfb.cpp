@@ -19,8 +19,8 @@ extern char** environ;
 namespace pcl_sq {
 namespace {
 
-/// A loaded machine may need seconds to start the server.
-constexpr std::chrono::seconds START_LIMIT{30};
+/// A machine under heavy load needs many seconds to start the server.
+constexpr std::chrono::seconds START_LIMIT{60};
 constexpr int SERVERS_PIPE = 3; ///< descriptor that the server writes its number to
 
 [[noreturn]] void fail(const std::string& reason) {

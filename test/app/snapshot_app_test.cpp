@@ -87,6 +87,33 @@ TEST(SnapshotApp, ModelOrCloudAloneIsEnough) {
   }
 }
 
+TEST(SnapshotApp, StandsTheObjectOnTheTableThatTheModelFileTells) {
+  const Folder folder;
+  const auto picture = [&](const std::string& extra,
+                           const std::vector<std::string>& up) {
+    ModelFile file;
+    file.model = bottle();
+    file.extra_json = extra;
+    const std::string model = folder.write("bottle.json", toJson(file));
+    std::vector<std::string> arguments = {model, "--size", "200x150"};
+    arguments.insert(arguments.end(), {"-o", folder / "out.png"});
+    arguments.insert(arguments.end(), up.begin(), up.end());
+    const ProgramRun run = runProgram("pcl_sq_snapshot", arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return slurp(folder / "out.png");
+  };
+  const std::string tilted = "{\"report\": {\"up\": [0, -0.8, -0.6]}}";
+  const std::string plain = picture("{}", {});
+  EXPECT_NE(picture(tilted, {}), plain);
+  EXPECT_EQ(picture(tilted, {}), picture("{}", {"--up", "0,-0.8,-0.6"}));
+  EXPECT_EQ(picture(tilted, {"--up", "-y"}), plain);
+  for (const char* nonsense : {"{\"report\": 3}",
+                               "{\"report\": {\"up\": \"-y\"}}",
+                               "{\"report\": {\"up\": [0, 0, 0]}}",
+                               "{\"report\": {\"up\": [1, null, 2]}}"})
+    EXPECT_EQ(picture(nonsense, {}), plain) << nonsense;
+}
+
 TEST(SnapshotApp, TurntableWritesNumberedPicturesAndNoProgressIntoAFile) {
   const Folder folder;
   const std::string model = folder.write("bottle.json", bottleJson());

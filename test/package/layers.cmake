@@ -21,7 +21,7 @@ set(public "${root}/include/pcl_sq")
 # layers 3 and 4: the class templates, and what else has a PCL base class
 file(GLOB elements "${public}/impl/*.hpp")
 list(TRANSFORM elements REPLACE ".*/(.*)\\.hpp$" "\\1")
-list(APPEND elements exception)
+list(APPEND elements exception point_grasp)
 list(JOIN elements "|" elements)
 
 file(GLOB core_headers "${public}/*.h" "${public}/impl/*.hpp")

@@ -109,8 +109,9 @@ TEST_P(StereoReprojectorMatchers, AGivenDepthRangeLeavesOutTheRest) {
   options.max_depth = 1.3;
   const StereoResult result = compute(box(), options);
   for (const auto& p : *result.cloud)
-    if (std::isfinite(p.z))
+    if (std::isfinite(p.z)) {
       ASSERT_LT(p.z, 3.0f); // whole blocks of sixteen disparities are searched
+    }
   EXPECT_GT(compareDisparity(result.disparity, box().disparity, box().mask).coverage,
             0.8);
 }

@@ -27,8 +27,9 @@ TEST(MeshBvh, AgreesWithTheSuperquadricItWasMadeFrom) {
     const Eigen::Vector3d p = random.pointNear(s);
     const double d = s.euclideanDistance(p);
     EXPECT_NEAR(mesh.distance(p), std::abs(d), step);
-    if (std::abs(d) > step)
+    if (std::abs(d) > step) {
       EXPECT_EQ(mesh.contains(p), d < 0.0);
+    }
   }
 }
 
@@ -41,8 +42,9 @@ TEST(MeshBvh, RaysHitWhereBruteForceDoes) {
     const Eigen::Vector3d to = 0.04 * random.direction();
     const app::RayHit hit = mesh.intersect(from, to - from);
     EXPECT_EQ(hit.found(), mesh.occluded(from, to - from));
-    if (hit.found())
+    if (hit.found()) {
       EXPECT_NEAR(mesh.distance(from + hit.t * (to - from)), 0.0, 1e-9);
+    }
   }
   EXPECT_FALSE(app::MeshBvh(TriangleMesh()).intersect({0, 0, 0}, {0, 0, 1}).found());
 }

@@ -54,6 +54,35 @@ void GraspPointFilter<PointT>::setDistanceThreshold(double threshold) {
 }
 
 template <typename PointT>
+void GraspPointFilter<PointT>::setSigmaThreshold(double multiples) {
+  if (!(multiples >= 0.0 && std::isfinite(multiples))) {
+    PCL_ERROR("[pcl_sq::%s::setSigmaThreshold] The threshold must not be negative; the "
+              "old one is kept.\n",
+              filter_name_.c_str());
+    return;
+  }
+  sigma_threshold_ = multiples;
+  metric_ = SurfaceMetric::SIGMA;
+}
+
+template <typename PointT>
+void GraspPointFilter<PointT>::describe(const pcl::Indices& indices,
+                                        pcl::PointCloud<PointGrasp>& points) const {
+  points = pcl::PointCloud<PointGrasp>();
+  if (!input_ || model_.empty())
+    return;
+  points.header = input_->header;
+  points.sensor_origin_ = input_->sensor_origin_;
+  points.sensor_orientation_ = input_->sensor_orientation_;
+  points.is_dense = input_->is_dense;
+  points.reserve(indices.size());
+  for (const auto index : indices) {
+    const PointT& point = (*input_)[static_cast<std::size_t>(index)];
+    points.push_back(describeGraspPoint(model_, {point.x, point.y, point.z}));
+  }
+}
+
+template <typename PointT>
 void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
   indices.clear();
   removed_indices_->clear();
@@ -61,8 +90,17 @@ void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
     PCL_WARN("[pcl_sq::%s::applyFilter] There is no model and so no point on its "
              "surface; hand one to setModel().\n",
              filter_name_.c_str());
-  const double tolerance =
+  double tolerance =
       metric_ == SurfaceMetric::GAUGE ? gauge_tolerance_ : distance_threshold_;
+  if (metric_ == SurfaceMetric::SIGMA) {
+    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices_->size()));
+    for (std::size_t i = 0; i < indices_->size(); ++i) {
+      const PointT& point = (*input_)[static_cast<std::size_t>((*indices_)[i])];
+      points.col(static_cast<Eigen::Index>(i)) << point.x, point.y, point.z;
+    }
+    sigma_ = surfaceNoise(model_, points);
+    tolerance = sigma_threshold_ * sigma_;
+  }
   constexpr Eigen::Index CHUNK = 4096; // points tested at a time
   Eigen::Matrix3Xd points(3, CHUNK);
   pcl::Indices tested;

@@ -140,16 +140,21 @@ bool ObjectSurfaceEstimation<PointT>::observe(pcl::IndicesPtr& object) {
                      report_.view,
                      &why))
     return fail(why);
-  object->clear();
-  if (report_.view.pixels.cells.empty())
-    object->assign(report_.view.columns.begin(), report_.view.columns.end());
-  else
-    for (std::size_t i = 0; i < input_->size(); ++i)
-      if (report_.view.pixels.cells[i] && points.col(Eigen::Index(i)).allFinite())
-        object->push_back(static_cast<pcl::index_t>(i));
-  report_.region_points = object->size();
   report_.region.min = report_.view.points.rowwise().minCoeff();
   report_.region.max = report_.view.points.rowwise().maxCoeff();
+  if (!report_.view.pixels.cells.empty()) {
+    // all the object's pixels but those whose match went elsewhere
+    const Eigen::Vector3d margin =
+        Eigen::Vector3d::Constant(0.25 * report_.view.extent);
+    const Eigen::AlignedBox3d box(report_.region.min - margin,
+                                  report_.region.max + margin);
+    object->clear();
+    for (std::size_t i = 0; i < input_->size(); ++i)
+      if (report_.view.pixels.cells[i] &&
+          box.contains(points.col(Eigen::Index(i)).template cast<double>()))
+        object->push_back(static_cast<pcl::index_t>(i));
+  }
+  report_.region_points = object->size();
   return true;
 }
 

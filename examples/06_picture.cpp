@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture and a mesh of a union of superquadrics, on any machine, with or without a
-// display. Usage: example_04_picture picture.png mesh.ply
+// display. Usage: example_06_picture picture.png mesh.ply
 #include <pcl_sq/exception.h>
 #include <pcl_sq/visualization/mesh_writer.h>
 #include <pcl_sq/visualization/snapshot_renderer.h>

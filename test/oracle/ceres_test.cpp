@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ceres, with derivatives by differences, from the same start: our minimum is not
+// worse.
+#include "levenberg_marquardt.h"
+
+#include "random_superquadric.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <gtest/gtest.h>
+
+using namespace pcl_sq;
+using namespace pcl_sq::detail;
+using pcl_sq::test::Random;
+
+namespace {
+
+/** \brief Radial distances of points, as a function of a step from the start. */
+class RadialDistances : public ceres::CostFunction {
+public:
+  RadialDistances(const Superquadric& start, const std::vector<Eigen::Vector3d>& points)
+      : start_(start), points_(points) {
+    set_num_residuals(static_cast<int>(points.size()));
+    mutable_parameter_block_sizes()->push_back(11);
+  }
+  Superquadric at(const double* x) const {
+    return moved(start_, Eigen::Map<const Vector11>(x), LmOptions());
+  }
+  bool Evaluate(const double* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    fill(parameters[0], residuals);
+    if (!jacobians || !jacobians[0])
+      return true;
+    constexpr double STEP = 1e-6;
+    const auto n = points_.size();
+    std::vector<double> forth(n), back(n);
+    for (int k = 0; k < 11; ++k) {
+      Vector11 x = Eigen::Map<const Vector11>(parameters[0]);
+      x[k] += STEP;
+      fill(x.data(), forth.data());
+      x[k] -= 2.0 * STEP;
+      fill(x.data(), back.data());
+      for (std::size_t i = 0; i < n; ++i)
+        jacobians[0][11 * i + static_cast<std::size_t>(k)] =
+            (forth[i] - back[i]) / (2.0 * STEP);
+    }
+    return true;
+  }
+
+private:
+  void fill(const double* x, double* residuals) const {
+    const Superquadric s = at(x);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      residuals[i] = s.radialDistance(points_[i]);
+  }
+  Superquadric start_;
+  const std::vector<Eigen::Vector3d>& points_;
+};
+
+double cost(const Superquadric& s, const std::vector<Eigen::Vector3d>& points) {
+  double sum = 0.0;
+  for (const Eigen::Vector3d& p : points)
+    sum += std::pow(s.radialDistance(p), 2);
+  return sum;
+}
+
+} // namespace
+
+TEST(CeresOracle, OurMinimumIsNotWorseFromTheSameStart) {
+  Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    Superquadric truth;
+    truth.center = 0.2 * random.direction();
+    truth.rotation = random.rotation();
+    truth.semi_axes = {0.6, 0.9, 1.3};
+    truth.epsilon1 = random.uniform(0.4, 1.4);
+    truth.epsilon2 = random.uniform(0.4, 1.4);
+    std::vector<Eigen::Vector3d> points;
+    UnitPoints unit;
+    unit.reserve(300);
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector3f p =
+          (random.surfacePoint(truth) + 0.03 * random.normal() * random.direction())
+              .cast<float>();
+      unit.add(p[0], p[1], p[2]);
+      points.push_back(p.cast<double>());
+    }
+    Vector11 off;
+    for (int k = 0; k < 11; ++k)
+      off[k] = random.uniform(-0.1, 0.1);
+    const Superquadric start = moved(truth, off, LmOptions());
+
+    LmOptions o;
+    o.max_iterations = 300;
+    o.cost_tolerance = 1e-12;
+    o.step_tolerance = 1e-9;
+    const LmResult ours = levenbergMarquardt(unit, start, o);
+
+    double x[11] = {};
+    ceres::Problem problem;
+    auto* distances = new RadialDistances(start, points); // the problem takes it over
+    problem.AddResidualBlock(distances, nullptr, x);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 300;
+    options.function_tolerance = 1e-14;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+
+    EXPECT_LE(cost(ours.model, points), cost(distances->at(x), points) * (1.0 + 1e-6))
+        << "trial " << trial;
+  }
+}

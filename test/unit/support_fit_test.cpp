@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/support_fit.h"
+
+#include "pcl_sq/fit_object.h"
+#include "view_scene.h"
+
+#include <gtest/gtest.h>
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+namespace {
+
+/** \brief Fits the object of a scene seen through its mask. */
+ObjectFit fitScene(const ViewScene& scene, const ObjectFitOptions& options = {}) {
+  ViewOptions view;
+  view.mask = scene.mask;
+  view.camera = scene.camera;
+  ObservedObject observed;
+  std::string why;
+  EXPECT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed, &why))
+      << why;
+  return fitObject(observed, options);
+}
+
+/** \brief Share of the volume of two unions that both have. */
+double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
+  Eigen::AlignedBox3d box = a.boundingBox();
+  box.extend(b.boundingBox());
+  Random random(10);
+  int both = 0, any = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d p =
+        box.min() + box.sizes().cwiseProduct(Eigen::Vector3d(random.uniform(0, 1),
+                                                             random.uniform(0, 1),
+                                                             random.uniform(0, 1)));
+    both += a.contains(p) && b.contains(p);
+    any += a.contains(p) || b.contains(p);
+  }
+  return double(both) / any;
+}
+
+ObjectFitOptions onePart() {
+  ObjectFitOptions options;
+  options.max_parts = 1;
+  return options;
+}
+
+} // namespace
+
+TEST(SupportFit, HiddenSideOfACanIsFoundAndTheCanIsRound) {
+  ViewScene scene;
+  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
+  scene.render(0.001);
+  const ObjectFit fit = fitScene(scene, onePart());
+  ASSERT_EQ(fit.model.size(), 1u);
+  EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::ROTATIONAL);
+  EXPECT_TRUE(fit.parts[0].chosen.upright);
+  EXPECT_GT(fit.parts[0].margin, 0.0);
+  EXPECT_GT(overlap(fit.model, scene.object), 0.93);
+}
+
+TEST(SupportFit, HiddenSideOfABoxIsFound) {
+  ViewScene scene;
+  scene.addUpright({0.05, 0.03, 0.06}, 0.2, 0.2, 0.06);
+  scene.render(0.001);
+  const ObjectFit fit = fitScene(scene, onePart());
+  ASSERT_EQ(fit.model.size(), 1u);
+  EXPECT_GT(overlap(fit.model, scene.object), 0.9);
+}
+
+TEST(SupportFit, ResultDoesNotDependOnTheFrame) {
+  ViewScene scene;
+  scene.addUpright({0.05, 0.04, 0.06}, 0.6, 0.8, 0.06);
+  scene.render(0.001);
+  ViewOptions view;
+  view.mask = scene.mask;
+  ObservedObject observed;
+  ASSERT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed));
+  const SupportEvidence evidence = observed.evidence(observed.contour, 48, true);
+  const SupportFit fit = fitWithSupports(observed.points, evidence);
+  Random random(11);
+  const Eigen::Matrix3d rotation = random.rotation();
+  const Eigen::Vector3d shift(3.0, -2.0, 1.0);
+  const auto move = [&](std::vector<SupportPlane> planes) {
+    for (SupportPlane& p : planes) {
+      p.normal = rotation * p.normal;
+      p.offset += p.normal.dot(shift);
+    }
+    return planes;
+  };
+  SupportEvidence moved = evidence;
+  moved.silhouette = move(evidence.silhouette);
+  moved.tangents = move(evidence.tangents);
+  moved.up = rotation * *evidence.up;
+  moved.viewpoint = rotation * *evidence.viewpoint + shift;
+  const Eigen::Matrix3Xd points = (rotation * observed.points).colwise() + shift;
+  const SupportFit other = fitWithSupports(points, moved);
+  ASSERT_TRUE(fit.fit.ok());
+  ASSERT_TRUE(other.fit.ok());
+  EXPECT_NEAR(other.fit.model.volume() / fit.fit.model.volume(), 1.0, 0.02);
+  EXPECT_LT((rotation * fit.fit.model.center + shift - other.fit.model.center).norm(),
+            0.001);
+}
+
+TEST(SupportFit, TooFewPointsGiveNoModel) {
+  const SupportFit fit = fitWithSupports(Eigen::Matrix3Xd::Random(3, 5), {});
+  EXPECT_FALSE(fit.fit.ok());
+  EXPECT_FALSE(fitWithSupports(Eigen::Matrix3Xd(3, 0), {}).fit.ok());
+}
