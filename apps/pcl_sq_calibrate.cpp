@@ -220,6 +220,7 @@ int work(const Options& o) {
   if (extension != ".yml" && extension != ".yaml" && extension != ".xml")
     throw UsageError("--output must end in .yml, .yaml or .xml.");
   checkWritable(o.output);
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const Views views = findBoards(o);
   const Calibration c = calibrate(views, o.rational);
   if (c.T.at<double>(0) > 0.0)
