@@ -100,7 +100,7 @@ TEST(StereoCalibration, ReadsIntrinsicsAndExtrinsicsFromTwoFiles) {
 }
 
 TEST(StereoCalibration, SaysWhatIsWrongWithAFile) {
-  expectRefusal("", "missing");
+  expectRefusal("", "neither");
   expectRefusal("hello world\n", "neither OpenCV YAML");
   expectRefusal("f=800\ncx=320\ncy=240\n", "baseline is missing");
   expectRefusal("f=800\ncx=320\ncy=240\nbaseline=0\n", "baseline is zero");
