@@ -81,6 +81,7 @@ Json toJson(const GraspRejections& r) {
   return {{"candidates", r.candidates},
           {"too_wide", r.too_wide},
           {"too_narrow", r.too_narrow},
+          {"unseen", r.unseen},
           {"slipping", r.slipping},
           {"poses", r.poses},
           {"table", r.table},
