@@ -128,6 +128,8 @@ void GraspSearch::finish(GraspPlan& plan) const {
       plan.grasps.begin(), plan.grasps.end(), [](const Grasp& a, const Grasp& b) {
         return a.scores.total > b.scores.total;
       });
+  plan.wrench_origin = centre_;
+  plan.wrench_length = radius_;
   if (!options_.wrench_quality)
     return;
   WrenchOptions wrench;

@@ -79,6 +79,10 @@ struct GraspRejections {
 struct GraspPlan {
   std::vector<Grasp> grasps; ///< best first
   GraspRejections rejections;
+  /** \brief What Grasp::epsilon and volume refer to: torques about the centre of
+   * gravity over the radius of a ball about it that holds the object [m]. */
+  Eigen::Vector3d wrench_origin = Eigen::Vector3d::Zero();
+  double wrench_length = 0.0;
   /** \brief Empty, or why there is no grasp and what came nearest to one. */
   std::string failure;
   [[nodiscard]] bool ok() const { return !grasps.empty(); }
