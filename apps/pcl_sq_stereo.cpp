@@ -243,9 +243,6 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   const bool best = model.estimation.decomposition == Decomposition::PARTS;
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
-  if (front_options.segment.empty() && front_options.mask.empty() && !best &&
-      !model.roi.empty() && front_options.click.empty() && front_options.color.empty())
-    front_options.segment = "none";
   checkFrontOptions(front_options, model.roi);
   checkModelOptions(model);
   checkOutputs(outputs);
