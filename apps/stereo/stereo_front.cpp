@@ -89,9 +89,7 @@ void filterBorder(const FrontOptions& o, FrontResult& r) {
   pcl::IndicesPtr indices(new pcl::Indices(r.object));
   filter.setIndices(indices);
   filter.setMask(r.segment.mask);
-  filter.setBlockSize(o.stereo.block_size != 0                ? o.stereo.block_size
-                      : o.stereo.matcher == StereoMatcher::BM ? 15
-                                                              : 5);
+  filter.setBlockSize(o.stereo.blockSizeFor(static_cast<int>(r.stereo.cloud->width)));
   filter.filter(r.object);
 }
 
