@@ -128,9 +128,9 @@ int takePictures(const Arguments& a) {
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
-    if (!fromJson(app::readFile(a.model), file, &why))
+    if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
-    renderer.addModel(file.model);
+    app::addModel(renderer, file);
     if (const auto up = upOf(file); up && a.up.empty()) {
       SnapshotOptions options = a.options;
       options.up = *up;
