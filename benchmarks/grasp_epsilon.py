@@ -39,7 +39,8 @@ def wrenches(grasp, file, edges):
 
 
 def epsilon(grasp, file, edges):
-    return -ConvexHull(wrenches(grasp, file, edges)).equations[:, -1].max()
+    # joggled: many wrenches share a facet of a pinch
+    return -ConvexHull(wrenches(grasp, file, edges), qhull_options="QJ").equations[:, -1].max()
 
 
 def main():
