@@ -64,7 +64,7 @@ def main():
             print(f"{path}: ours {grasp['epsilon']:.5f}, cut {cut} -> {limit:.5f}"
                   f" ({100 * error:+.2f} %)", flush=True)
     print(f"largest difference {100 * worst:.2f} %")
-    sys.exit(worst > 0.02)
+    sys.exit(int(worst > 0.02))
 
 
 if __name__ == "__main__":
