@@ -102,7 +102,9 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
     return fail("segmentBox", "image and cloud differ in size", segment);
   const cv::Rect inside = clipped({box.x, box.y, box.width, box.height}, image);
   if (box.empty() || inside.width < 4 || inside.height < 4)
-    return fail("segmentBox", "the box lies outside of the image or is empty", segment);
+    return fail("segmentBox",
+                "the box lies outside of the image or is empty; give one within it",
+                segment);
   const cv::Mat bgr = toBgr(image);
   const cv::Rect window = grown(inside, options_.margin, bgr);
   if (window == inside)
@@ -159,7 +161,9 @@ bool ObjectSegmenter::segmentClick(const cv::Mat& image,
   if (!cloud.empty() && !sameSize(image, cloud))
     return fail("segmentClick", "image and cloud differ in size", segment);
   if (x < 0 || y < 0 || x >= image.cols || y >= image.rows)
-    return fail("segmentClick", "the point lies outside of the image", segment);
+    return fail("segmentClick",
+                "the point lies outside of the image; give a pixel within it",
+                segment);
   const cv::Mat bgr = toBgr(image);
   cv::Mat rough = growColors(bgr, {x, y});
   cv::Mat patch;
