@@ -65,22 +65,6 @@ void addDistances(const UnitPoints& points,
                        evaluateCost(points, unit_model, o) / n;
 }
 
-FitSetting settingOf(const FitOptions& options, std::size_t count) {
-  FitSetting s;
-  s.lm.min_epsilon = options.min_epsilon;
-  s.lm.max_epsilon = options.max_epsilon;
-  s.lm.min_axis = MIN_AXIS;
-  s.lm.max_axis = MAX_AXIS;
-  s.lm.space = ParameterSpace::without(options.fixed);
-  // a fiftieth of what one point more or less would change
-  s.lm.cost_tolerance = 0.02 / double(count);
-  s.limits.robust = options.robust;
-  s.limits.max_outlier_share = options.max_outlier_share;
-  s.size_prior = options.size_prior;
-  s.max_iterations = options.max_iterations;
-  return s;
-}
-
 /** \brief A start's mixture from its residuals: half of the points are closer. */
 Candidate
 candidateAt(const UnitPoints& points, const Superquadric& start, const FitSetting& s) {
@@ -105,6 +89,22 @@ candidateAt(const UnitPoints& points, const Superquadric& start, const FitSettin
 }
 
 } // namespace
+
+FitSetting settingOf(const FitOptions& options, std::size_t count) {
+  FitSetting s;
+  s.lm.min_epsilon = options.min_epsilon;
+  s.lm.max_epsilon = options.max_epsilon;
+  s.lm.min_axis = MIN_AXIS;
+  s.lm.max_axis = MAX_AXIS;
+  s.lm.space = ParameterSpace::without(options.fixed);
+  // a fiftieth of what one point more or less would change
+  s.lm.cost_tolerance = 0.02 / double(count);
+  s.limits.robust = options.robust;
+  s.limits.max_outlier_share = options.max_outlier_share;
+  s.size_prior = options.size_prior;
+  s.max_iterations = options.max_iterations;
+  return s;
+}
 
 FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                    const Superquadric* initial,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levenberg_marquardt.h"
 
+#include "damped_solve.h"
+
 namespace pcl_sq::detail {
 
 namespace {
@@ -20,51 +22,17 @@ kernels::Mixture mixture(const LmOptions& o) {
   return m;
 }
 
-/** \brief Solves the damped equations over the free directions by Cholesky.
- * \return false where they are not positive definite */
-bool solve(const Matrix11& jtj,
-           const Vector11& jtr,
-           int n,
-           const bool (&frozen)[11],
-           double damping,
-           Vector11& step) {
-  double largest = 0.0;
-  for (int i = 0; i < n; ++i)
-    largest = std::max(largest, jtj(i, i));
-  if (!(largest > 0.0) || !std::isfinite(largest))
-    return false;
-  Matrix11 l;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double s = frozen[i] || frozen[j] ? 0.0 : jtj(i, j);
-      if (i == j)
-        s = frozen[i] ? 1.0 : s + damping * (s + 1e-9 * largest);
-      for (int k = 0; k < j; ++k)
-        s -= l(i, k) * l(j, k);
-      if (i != j)
-        l(i, j) = s / l(j, j);
-      else if (s > 1e-14 * largest || (frozen[i] && s > 0.0))
-        l(i, i) = std::sqrt(s);
-      else
-        return false;
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    double s = frozen[i] ? 0.0 : -jtr[i];
-    for (int k = 0; k < i; ++k)
-      s -= l(i, k) * step[k];
-    step[i] = s / l(i, i);
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    double s = step[i];
-    for (int k = i + 1; k < n; ++k)
-      s -= l(k, i) * step[k];
-    step[i] = s / l(i, i);
-  }
-  return step.head(n).allFinite();
+NormalEquations evaluate(const UnitPoints& points,
+                         const Superquadric& model,
+                         const LmOptions& options) {
+  NormalEquations e = normalEquations(points, model, options);
+  if (options.contributor)
+    options.contributor(model, e);
+  return e;
 }
 
-/** \brief Whether a free direction leads out of a bound the model already touches. */
+} // namespace
+
 bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions& o) {
   for (int i = 6; i < 11; ++i) {
     const double value = i < 9 ? m.semi_axes[i - 6] : i == 9 ? m.epsilon1 : m.epsilon2;
@@ -76,10 +44,7 @@ bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions&
   return false;
 }
 
-/** \brief Shortens the parts of a step that leave the model's range of trust, each for
- * itself: the spin of a sphere may be anything, which must not hold up its radius.
- * \return whether a part was shortened */
-bool limit(Vector11& step, const Superquadric& m) {
+bool limitStep(Vector11& step, const Superquadric& m) {
   bool limited = false;
   const auto shorten = [&](int begin, int size, double trust) {
     const double largest = step.segment(begin, size).cwiseAbs().maxCoeff();
@@ -94,17 +59,6 @@ bool limit(Vector11& step, const Superquadric& m) {
   shorten(9, 2, TRUST);
   return limited;
 }
-
-NormalEquations evaluate(const UnitPoints& points,
-                         const Superquadric& model,
-                         const LmOptions& options) {
-  NormalEquations e = normalEquations(points, model, options);
-  if (options.contributor)
-    options.contributor(model, e);
-  return e;
-}
-
-} // namespace
 
 ParameterSpace ParameterSpace::without(unsigned fixed) {
   ParameterSpace space;
@@ -197,7 +151,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
       fresh = false;
     }
     ++r.iterations;
-    const bool solved = solve(jtj, jtr, n, frozen, damping, step);
+    const bool solved = dampedSolve(jtj, jtr, n, frozen, damping, step);
     if (solved) {
       // what the model itself promises; not worth an evaluation once it is nothing
       const double promised = -jtr.head(n).dot(step.head(n));
@@ -206,7 +160,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
         break;
       }
       Vector11 full = basis * step.head(n);
-      const bool limited = limit(full, r.model);
+      const bool limited = limitStep(full, r.model);
       const Superquadric candidate = moved(r.model, full, o);
       const NormalEquations e = evaluate(points, candidate, o);
       if (e.cost < r.equations.cost) {

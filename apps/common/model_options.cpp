@@ -164,6 +164,8 @@ std::string optionsToJson(const ModelOptions& options) {
                                                     : "mean";
   json["exclusive"] = e.exclusive_points;
   json["remove_plane"] = options.remove_plane;
+  if (options.taper)
+    json["taper"] = true;
   if (!options.roi.empty())
     json["roi"] = options.roi;
   if (!options.box.empty())
@@ -219,6 +221,11 @@ std::string reportToJson(const ModelResult& result) {
     }
     json["notes"] = report.view.notes;
   }
+  if (result.taper)
+    json["taper"] = {
+        {"margin", result.taper->margin},
+        {"deviations",
+         {result.taper->taper_deviations.x(), result.taper->taper_deviations.y()}}};
   json["grasp_points"] = report.grasp_indices.size();
   return nlohmann::ordered_json{{"report", json}}.dump();
 }
@@ -336,6 +343,7 @@ void checkModelOptions(const ModelOptions& options) {
   for (std::size_t k = 0; k + 3 < options.box.size(); ++k)
     if (!(options.box[k] < options.box[k + 3]))
       throw UsageError("--box needs each minimum below its maximum");
+  checkTaper(options);
   for (const std::string& path :
        {options.output, options.mesh, options.grasp_points, options.snapshot})
     if (!path.empty())
@@ -394,9 +402,11 @@ ModelResult makeModel(const LoadedCloud& input,
   file.input_points = input.cloud->size();
   file.finite_points = input.finite_points;
   file.options_json = optionsToJson(options);
-  double total = 0.0;
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
+  if (options.taper)
+    timer.run("taper", [&] { return addTaper(input, options, result); });
+  double total = 0.0;
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
