@@ -65,8 +65,6 @@ void writeImage(const std::string& path, const cv::Mat& image) {
 }
 
 void writeDisparity(const std::string& path, const cv::Mat& disparity) {
-  if (disparity.empty())
-    throw Failure("a depth image has no disparity to write; leave out --disparity.");
   const cv::Mat missing = disparity != disparity;
   cv::Mat out = disparity.clone();
   if (extensionOf(path) == ".pfm")
@@ -245,6 +243,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
   checkModelOptions(model);
+  if (!front_options.depth.empty() && !outputs.disparity.empty())
+    throw UsageError("a depth image has no disparity to write; leave out --disparity.");
   checkOutputs(outputs);
   const FrontResult front = runFront(front_options, model.roi);
   writeFront(front, outputs);

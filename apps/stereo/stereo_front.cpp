@@ -43,10 +43,12 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
   Segment segment;
   if (!o.mask.empty()) {
     cv::Mat mask = loadImage(o.mask, cv::IMREAD_GRAYSCALE);
-    if (mask.size() != s.left.size())
-      throw Failure(
-          "the mask and the image differ in size; give a mask of the rectified "
-          "left image.");
+    if (mask.cols != static_cast<int>(s.cloud->width) ||
+        mask.rows != static_cast<int>(s.cloud->height))
+      throw Failure("the mask and the image differ in size; give a mask of " +
+                    std::to_string(s.cloud->width) + " x " +
+                    std::to_string(s.cloud->height) +
+                    " px, of the rectified left image.");
     segment.mask = mask > 127;
     segment.rect = boundingRect(segment.mask);
     if (segment.rect.empty())
@@ -170,6 +172,7 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
       ->expected(3)
       ->delimiter(',')
+      ->check(CLI::Range(0, 255))
       ->type_name("R,G,B")
       ->excludes(click);
   cli.add_flag("--border-filter",

@@ -183,11 +183,34 @@ bool findObjectAt(const ColorCloud& cloud, const cv::Point& pixel, cv::Mat& mask
   if (*best == 0)
     return false;
   const cv::Mat patch = labels == static_cast<int>(best - votes.begin());
-  if (cv::countNonZero(patch & rimOf(labels.size())) > 0 ||
-      cv::countNonZero(patch) > static_cast<int>(labels.total()) / 4)
+  const int area = cv::countNonZero(patch), total = static_cast<int>(labels.total());
+  if (cv::countNonZero(patch & rimOf(labels.size())) > 0 || area > total / 4 ||
+      area < std::max(20, total / 2000))
     return false;
   mask = grid.toPixels(patch);
   return true;
+}
+
+double
+shareAtDepthOf(const ColorCloud& cloud, const cv::Mat& patch, const cv::Mat& mask) {
+  std::vector<float> own, others;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!std::isfinite(cloud[i].z))
+      continue;
+    if (patch.ptr<std::uint8_t>()[i] != 0)
+      own.push_back(cloud[i].z);
+    if (mask.ptr<std::uint8_t>()[i] != 0)
+      others.push_back(cloud[i].z);
+  }
+  if (own.empty() || others.empty())
+    return 1.0;
+  std::sort(own.begin(), own.end());
+  const float near = own[own.size() / 20], far = own[own.size() - 1 - own.size() / 20];
+  const float margin = far - near + 0.02f * far; // a patch may end before the object
+  const auto count = std::count_if(others.begin(), others.end(), [&](float z) {
+    return z > near - margin && z < far + margin;
+  });
+  return static_cast<double>(count) / static_cast<double>(others.size());
 }
 
 } // namespace pcl_sq::detail

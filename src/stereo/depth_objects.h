@@ -36,8 +36,13 @@ bool labelObjectInBox(const ColorCloud& cloud,
                       cv::Mat& labels);
 
 /** \brief Rough mask of the patch of connected depths above the table under a pixel.
- * \return false if there is none, or one that is no object: cut by the image's border
- * or a quarter of the image */
+ * \return false if there is none, or one that is no object: cut by the image's border,
+ * tiny, or a quarter of the image */
 bool findObjectAt(const ColorCloud& cloud, const cv::Point& pixel, cv::Mat& mask);
+
+/** \brief Share of a mask's points that lie about as far away as a patch's, 0 to 1; 1
+ * without points. \param[in] patch, mask CV_8U of the cloud's size */
+double
+shareAtDepthOf(const ColorCloud& cloud, const cv::Mat& patch, const cv::Mat& mask);
 
 } // namespace pcl_sq::detail
