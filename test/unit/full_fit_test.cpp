@@ -200,6 +200,13 @@ TEST(FullFit, SaysWhyThereIsNoFit) {
   o.fixed = FIX_CENTER; // at what, without a start?
   EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), o).termination,
             Termination::INVALID_OPTIONS);
+  Superquadric far;
+  far.center = {0.0, 1e12, 0.0};
+  EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), far).termination,
+            Termination::INVALID_OPTIONS);
+  far.center *= 1e290; // as numbers go
+  EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), far).termination,
+            Termination::INVALID_OPTIONS);
 }
 
 TEST(FullFit, LeavesOutPointsThatAreNone) {
@@ -211,6 +218,19 @@ TEST(FullFit, LeavesOutPointsThatAreNone) {
   const FitSummary s = fitSuperquadric(points);
   EXPECT_EQ(s.points, 400U);
   EXPECT_LT(hausdorff(random, s.model, truth), 1e-4);
+}
+
+TEST(FullFit, ManyPointsInFewPlacesAreFitted) {
+  // six places of a surface, each many times: the subsets must not come out empty
+  Random random(10);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Eigen::Matrix3Xd places = surface(random, object(random), 6);
+    Eigen::Matrix3Xd points(3, 1800);
+    for (int i = 0; i < points.cols(); ++i)
+      points.col(i) = places.col(i % places.cols());
+    const FitSummary s = fitSuperquadric(points);
+    EXPECT_TRUE(s.ok() && s.model.isValid()) << toString(s.termination);
+  }
 }
 
 TEST(FullFit, OptionsKnowTheirRanges) {
