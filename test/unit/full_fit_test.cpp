@@ -225,7 +225,7 @@ TEST(FullFit, ManyPointsInFewPlacesAreFitted) {
   Random random(10);
   for (int trial = 0; trial < 30; ++trial) {
     const Eigen::Matrix3Xd places = surface(random, object(random), 6);
-    Eigen::Matrix3Xd points(3, 1800);
+    Eigen::Matrix3Xd points(3, 9000);
     for (int i = 0; i < points.cols(); ++i)
       points.col(i) = places.col(i % places.cols());
     const FitSummary s = fitSuperquadric(points);
