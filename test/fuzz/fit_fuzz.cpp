@@ -146,10 +146,10 @@ std::string complaint(const TaperedFit& f) {
   if (f.ok() && !f.model.isValid(&why))
     return "invalid model: " + why;
   if (!std::isfinite(f.margin) || !std::isfinite(f.rms_distance) ||
-      !std::isfinite(f.sigma) || !f.taper_deviations.allFinite())
+      !std::isfinite(f.sigma) || !std::isfinite(f.kx_deviation + f.ky_deviation))
     return "not finite: margin " + std::to_string(f.margin) + ", rms " +
            std::to_string(f.rms_distance) + ", sigma " + std::to_string(f.sigma) +
-           ", deviations " + std::to_string(f.taper_deviations.sum());
+           ", deviations " + std::to_string(f.kx_deviation + f.ky_deviation);
   return complaint(f.untapered);
 }
 
