@@ -139,6 +139,7 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                   -1e3 * (observed.table->normal.dot(truth.model.parts[0].center) +
                           observed.table->offset -
                           truth.model.parts[0].support(observed.table->normal)));
+    std::printf("    extent %.3f m\n", observed.extent);
     std::printf("    misfit of one %.2f, effective %.0f\n",
                 fit.misfit,
                 observed.effective_points);

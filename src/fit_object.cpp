@@ -18,6 +18,12 @@ constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
 constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
+/** \brief Things are no superquadrics: their surface's distance to the best one, over
+ * the object's size. */
+constexpr double MODEL_ERROR = 0.005;
+/** \brief What a depth image's neighbours share and their scatter does not show, over
+ * the depth: locking to whole pixels, smoothing over the matched window. */
+constexpr double SENSOR_ERROR = 7e-4;
 
 struct Split {
   Piece first, second;
@@ -120,6 +126,26 @@ void mergeParts(const PieceContext& context,
   }
 }
 
+/** \brief Lets the parts share the axis of the largest solid of revolution among them
+ * where the data agree: what one part's points leave open, another's may tell. */
+void shareAxis(const PieceContext& context, std::vector<Piece>& pieces) {
+  std::size_t largest = pieces.size();
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    if (axisOf(pieces[k]) && (largest == pieces.size() ||
+                              pieces[k].points.size() > pieces[largest].points.size()))
+      largest = k;
+  if (largest == pieces.size())
+    return;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (k == largest || pieces[k].fit.chosen.on_axis)
+      continue;
+    Piece shared = pieces[k];
+    fitPiece(context, shared, Effort::AGAIN, axisOf(pieces[largest]));
+    if (shared.fit.chosen.on_axis || shared.score < pieces[k].score)
+      pieces[k] = std::move(shared);
+  }
+}
+
 } // namespace
 
 bool ObjectFitOptions::isValid(std::string* why) const {
@@ -144,7 +170,12 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
   if (wanted > 1 && noise > 0.0) {
-    context.noise = std::min(noise, pieces[0].fit.noise);
+    context.noise =
+        Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
+                        MODEL_ERROR * observed.extent,
+                        observed.pixels.cells.empty() ? 0.0
+                                                      : SENSOR_ERROR * observed.depth)
+            .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].fit.chosen.cost / observations(context, pieces[0]);
     fit.single_bic = pieces[0].score;
@@ -173,6 +204,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     }
     if (options.parts == 0)
       mergeParts(context, pieces, min_gain);
+    shareAxis(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

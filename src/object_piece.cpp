@@ -73,14 +73,16 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
     for (const ContourPoint& p : piece.contour)
       if (inside(p.pixel))
         part.contour.push_back(p);
-    const double near = 2.0 / std::sqrt(o.camera.fx * o.camera.fy);
+    const double near =
+        (o.outline == OutlineSource::POINTS ? 0.8 * o.outline_sigma : 2.0) /
+        std::sqrt(o.camera.fx * o.camera.fy);
     for (const Eigen::Vector2d& p : piece.pixels) {
       const double side = cut.normal.dot(o.camera.ray(p));
       if (side <= 0.0)
         continue;
       part.pixels.push_back(p);
       // where the object goes on beyond the cut, the piece has no outline
-      if (o.outline != OutlineSource::POINTS && side < near) {
+      if (side < near) {
         ContourPoint foreign;
         foreign.pixel = p;
         foreign.own = false;

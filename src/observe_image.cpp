@@ -18,6 +18,7 @@ constexpr int RIM_OF_MASK = 1;    ///< pixels beside a mask's outline that are l
 constexpr int RIM_OF_DEPTH = 3;   ///< the same for the fattened rim of stereo matching
 constexpr double FATTENING = 1.5; ///< expected dilation of an outline from depth [px]
 constexpr int OCCLUDER_REACH = 6; ///< pixels searched beyond the outline
+constexpr int PLANES = 3;         ///< largest ones among which the table is
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -89,6 +90,25 @@ bool agreesWithNeighbours(const Observation& o, const CellMask& mask, int x, int
   return std::abs(depth - middle) <= 6.0 * spread + 1e-3 * middle;
 }
 
+/** \brief Where a plane is, as seen from the object. */
+enum class TableRelation { UNDER, ABOVE, FAR };
+
+TableRelation relationTo(const TableModel& table, const ObservedObject& observed) {
+  const double tolerance = 5.0 * table.sigma + 0.1 * observed.extent;
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
+    heights.push_back(table.height(observed.points.col(i)));
+  const auto at = [&heights](std::size_t index) {
+    const auto place = heights.begin() + std::ptrdiff_t(index);
+    std::nth_element(heights.begin(), place, heights.end());
+    return *place;
+  };
+  if (at(heights.size() / 5) < -tolerance)
+    return TableRelation::ABOVE;
+  return at(heights.size() / 50) > observed.extent ? TableRelation::FAR
+                                                   : TableRelation::UNDER;
+}
+
 /** \brief The table from the points around the object. */
 void findTable(Observation& o, const Bounds& b) {
   const int margin = std::max(20, (b.x1 - b.x0 + b.y1 - b.y0) / 3);
@@ -107,11 +127,22 @@ void findTable(Observation& o, const Bounds& b) {
       if (!near && o.finite(c))
         around.push_back(o.at(c));
     }
-  TableModel table;
-  if (findPlane(around, o.out.camera.center, 0.008 * o.out.depth, table))
-    o.out.table = table;
-  else
-    o.out.notes.push_back("no table was found around the object");
+  // the largest plane may be a wall behind the object
+  for (int attempt = 0; attempt < PLANES; ++attempt) {
+    TableModel table;
+    if (!findPlane(around, o.out.camera.center, 0.008 * o.out.depth, table))
+      break;
+    if (relationTo(table, o.out) == TableRelation::UNDER) {
+      o.out.table = table;
+      return;
+    }
+    std::vector<Eigen::Vector3d> rest;
+    for (const Eigen::Vector3d& p : around)
+      if (std::abs(table.height(p)) > 0.016 * o.out.depth)
+        rest.push_back(p);
+    around.swap(rest);
+  }
+  o.out.notes.push_back("no table was found under the object");
 }
 
 /** \brief Whether something nearer than the object hides it beyond a contour pixel. */
@@ -173,9 +204,18 @@ void choosePoints(Observation& o, const Bounds& b, int rim) {
 void measure(ObservedObject& observed) {
   if (observed.points.cols() == 0)
     return;
-  const Eigen::Vector3d low = observed.points.rowwise().minCoeff();
-  const Eigen::Vector3d high = observed.points.rowwise().maxCoeff();
-  observed.extent = 0.5 * (high - low).norm();
+  // a few wrong matches must not make the object large
+  const Eigen::Index n = observed.points.cols(), cut = n / 100;
+  Eigen::Vector3d side;
+  std::vector<double> along(static_cast<std::size_t>(n));
+  for (int k = 0; k < 3; ++k) {
+    Eigen::VectorXd::Map(along.data(), n) = observed.points.row(k);
+    std::nth_element(along.begin(), along.begin() + cut, along.end());
+    const double low = along[std::size_t(cut)];
+    std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+    side[k] = *(along.end() - 1 - cut) - low;
+  }
+  observed.extent = 0.5 * side.norm();
   observed.depth =
       std::max(1e-9, observed.camera.depthOf(observed.points.rowwise().mean()));
 }
@@ -183,25 +223,14 @@ void measure(ObservedObject& observed) {
 void checkTable(ObservedObject& observed) {
   if (!observed.table || observed.points.cols() == 0)
     return;
-  const double tolerance = 5.0 * observed.table->sigma + 0.1 * observed.extent;
-  Eigen::Index below = 0;
-  for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
-    below += observed.table->height(observed.points.col(i)) < -tolerance;
-  const bool wrong_side = 5 * below > observed.points.cols();
-  double lowest = 1e300;
-  std::vector<double> heights;
-  for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
-    heights.push_back(observed.table->height(observed.points.col(i)));
-  std::sort(heights.begin(), heights.end());
-  lowest = heights[heights.size() / 50];
-  const bool far = lowest > 1.0 * observed.extent;
-  if (wrong_side)
+  const TableRelation relation = relationTo(*observed.table, observed);
+  if (relation == TableRelation::ABOVE)
     observed.notes.push_back(
         "the object lies below the table plane, which is left out");
-  else if (far)
+  else if (relation == TableRelation::FAR)
     observed.notes.push_back(
         "the object does not stand on the table plane, which is left out");
-  if (wrong_side || far)
+  if (relation != TableRelation::UNDER)
     observed.table.reset();
 }
 

@@ -3,6 +3,12 @@
 
 namespace pcl_sq::detail {
 
+namespace {
+
+constexpr double DEPTH_SIGMA = 0.4; ///< of the logarithm of depth over width
+
+} // namespace
+
 void SupportCost::operator()(const Superquadric& body, NormalEquations& e) const {
   Vector11 slope = Vector11::Zero(); // derivatives of sum z u
   double sum = 0.0, precision = 0.0;
@@ -30,6 +36,13 @@ void SupportCost::operator()(const Superquadric& body, NormalEquations& e) const
     const double weight = unit / plane.sigma;
     if (residual > 0.0)
       e.addRow(weight * plane.jacobian(body), weight * residual);
+  }
+  const double half_depth = body.support(view);
+  if (half_width > 0.0 && half_depth > half_width) {
+    Vector11 row = body.supportJacobian(view);
+    row.head<3>().setZero(); // the depth, wherever the body is
+    e.addRow(unit / (DEPTH_SIGMA * half_depth) * row,
+             unit / DEPTH_SIGMA * std::log(half_depth / half_width));
   }
 }
 

@@ -14,18 +14,28 @@ namespace pcl_sq::detail {
  * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is
  * integrated out: sum z^2 - (sum z u)^2 / (sum u^2 + 1 / dilation_sigma^2), with z the
  * residuals over their sigmas and u the inverse sigmas; the Gauss-Newton matrix loses
- * the same term of rank one. */
+ * the same term of rank one.
+ *
+ * What the camera cannot see is unlikely to be much deeper than what it sees is wide:
+ * ln(half depth / half width) ~ N(0, DEPTH_SIGMA^2) where it is positive. That is next
+ * to nothing beside any evidence and decides where there is none: a rod, seen from the
+ * side, may otherwise be the edge of a plate. */
 struct SupportCost {
   std::vector<SupportPlane> silhouette; ///< tangents with a common dilation
   std::vector<SupportPlane> tangents;   ///< planes that the body touches
   std::vector<SupportPlane> limits;     ///< half-spaces that hold the body
   double dilation_sigma = 0.0;          ///< 0: the silhouette is exact
+  /** \brief Direction away from the camera, unit length. */
+  Eigen::Vector3d view = Eigen::Vector3d::UnitZ();
+  /** \brief Half the body's smaller width across the view; 0: no prior on its depth. */
+  double half_width = 0.0;
   /** \brief What a residual of one sigma costs, as a length: makes the costs of planes
    * and points comparable. */
   double unit = 1.0;
 
   bool empty() const {
-    return silhouette.empty() && tangents.empty() && limits.empty();
+    return silhouette.empty() && tangents.empty() && limits.empty() &&
+           half_width == 0.0;
   }
   /** \brief Adds cost and derivatives. */
   void operator()(const Superquadric& body, NormalEquations& equations) const;

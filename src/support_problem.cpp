@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support_problem.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 
 namespace pcl_sq::detail {
@@ -22,6 +24,35 @@ std::vector<SupportPlane> toUnit(std::vector<SupportPlane> planes, const UnitFra
   return planes;
 }
 
+/** \brief Half the smaller width of the points across a direction, a few of them left
+ * out. */
+double halfWidthAcross(const UnitPoints& points, const Eigen::Vector3d& direction) {
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = direction.unitOrthogonal();
+  across.col(1) = direction.cross(across.col(0));
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d q = across.transpose() * points[i].cast<double>();
+    mean += q;
+    square += q * q.transpose();
+  }
+  mean /= double(points.size());
+  square = square / double(points.size()) - mean * mean.transpose();
+  const Eigen::Vector3f narrow =
+      (across *
+       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(square).eigenvectors().col(0))
+          .cast<float>();
+  std::vector<float> along(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    along[i] = narrow.dot(points[i]);
+  const auto cut = static_cast<std::ptrdiff_t>(along.size() / 50);
+  std::nth_element(along.begin(), along.begin() + cut, along.end());
+  const double low = along[std::size_t(cut)];
+  std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+  return 0.5 * (double(*(along.end() - 1 - cut)) - low);
+}
+
 } // namespace
 
 bool SupportProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
@@ -39,6 +70,12 @@ bool SupportProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   cost_.tangents = toUnit(evidence.tangents, frame_);
   cost_.limits = toUnit(evidence.limits, frame_);
   cost_.dilation_sigma = evidence.dilation_sigma / frame_.scale;
+  if (evidence.viewpoint) {
+    has_view_ = true;
+    view_ = -frame_.toUnit(*evidence.viewpoint).normalized();
+    cost_.view = view_;
+    cost_.half_width = halfWidthAcross(medium_, view_);
+  }
   few_ = cost_;
   const auto planes = static_cast<int>(cost_.silhouette.size());
   const int stride = std::max(1, planes / FEW_PLANES);
@@ -50,10 +87,6 @@ bool SupportProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (evidence.up) {
     has_up_ = true;
     up_ = (frame_.axes.transpose() * *evidence.up).normalized();
-  }
-  if (evidence.viewpoint) {
-    has_view_ = true;
-    view_ = -frame_.toUnit(*evidence.viewpoint).normalized();
   }
   noise_ = options.noise / frame_.scale;
   if (options.max_semi_axis > 0.0)

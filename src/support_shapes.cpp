@@ -7,7 +7,7 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr double BOX_EPSILON = 0.2;
-constexpr int ITERATIONS = 12;
+constexpr int ITERATIONS = 20;
 /** \brief Largest angle to the table's normal of an axis that may be upright. */
 constexpr double UPRIGHT = 0.35;
 
@@ -84,6 +84,16 @@ void makeMember(Superquadric& m, ShapeClass shape) {
     m.epsilon1 = m.epsilon2 = 1.0;
 }
 
+/** \brief Whether a cross-section is far from round. */
+bool flat(const Superquadric& m) {
+  return std::abs(std::log(m.semi_axes[0] / m.semi_axes[1])) > 0.4;
+}
+
+/** \brief Twice the logarithm of the prior odds, about 400 to 1, that a part shares the
+ * axis of the solid of revolution beside it: things are turned on lathes, wheels and
+ * moulds. */
+constexpr double SHARED_AXIS = 12.0;
+
 class Families {
 public:
   Families(const SupportProblem& problem, double sigma)
@@ -97,7 +107,16 @@ public:
       start = upright(start, upright_axis, problem_.up());
       space = standing(space, upright_axis);
     }
-    makeMember(start, shape);
+    t.model = start;
+    makeMember(t.model, shape);
+    run(shape, t, space, upright_axis >= 0, false);
+    if (shape != ShapeClass::ROTATIONAL || !problem_.hasView() || !flat(start))
+      return;
+    // a deep cross-section may be the guess of a shallow one: the front stays in place
+    const double front = start.support(problem_.view());
+    start.semi_axes[0] = start.semi_axes[1] = start.semi_axes.head<2>().minCoeff();
+    start.epsilon2 = 1.0;
+    start.center += (start.support(problem_.view()) - front) * problem_.view();
     t.model = start;
     run(shape, t, space, upright_axis >= 0, false);
   }
@@ -147,7 +166,8 @@ private:
     c.on_axis = on_axis;
     c.parameters = static_cast<int>(space.basis.cols());
     c.cost = t.cost;
-    c.bic = t.cost + c.parameters * std::log(problem_.observations());
+    c.bic = t.cost + c.parameters * std::log(problem_.observations()) -
+            (on_axis ? SHARED_AXIS : 0.0);
     c.model = t.model;
     for (ShapeCandidate& other : candidates_)
       if (other.shape == c.shape && other.upright == c.upright &&

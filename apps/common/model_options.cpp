@@ -182,8 +182,13 @@ nlohmann::ordered_json boxToJson(const RoiBox& box) {
 std::string reportToJson(const ModelResult& result) {
   const EstimationReport& report = result.report;
   nlohmann::ordered_json json;
+  const auto numbers = [](const Eigen::Vector3d& v) {
+    return nlohmann::ordered_json{v.x(), v.y(), v.z()};
+  };
   if (result.up)
-    json["up"] = {result.up->x(), result.up->y(), result.up->z()};
+    json["up"] = numbers(*result.up);
+  if (result.sensor)
+    json["sensor"] = numbers(*result.sensor);
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),
@@ -376,6 +381,10 @@ ModelResult makeModel(const LoadedCloud& input,
     result.up = selection.table->normal;
   else if (result.report.view.table)
     result.up = result.report.view.table->normal;
+  if (result.report.view.hasCamera())
+    result.sensor = result.report.view.camera.center;
+  else if (input.cloud->isOrganized()) // an image of points
+    result.sensor = input.cloud->sensor_origin_.head<3>().cast<double>();
 
   ModelFile& file = result.file;
   file.model = model;

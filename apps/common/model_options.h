@@ -59,9 +59,10 @@ void checkModelOptions(const ModelOptions& options);
 struct ModelResult {
   ModelFile file;
   EstimationReport report;
-  pcl::Indices object;               ///< points that were given to the estimation
-  std::optional<Eigen::Vector3d> up; ///< normal of the table, where one is known
-  std::optional<TaperedFit> taper;   ///< with --taper
+  pcl::Indices object;                   ///< points that were given to the estimation
+  std::optional<Eigen::Vector3d> up;     ///< normal of the table, where one is known
+  std::optional<Eigen::Vector3d> sensor; ///< camera's place, where one is known
+  std::optional<TaperedFit> taper;       ///< with --taper
 };
 
 /** \brief Region, plane removal and estimation. \throw Failure if there is no model */

@@ -44,6 +44,7 @@ void writeSnapshot(const std::string& path,
   SnapshotOptions picture;
   if (result.up)
     picture.up = *result.up;
+  picture.sensor = result.sensor;
   SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
   addModel(renderer, result.file);

@@ -59,11 +59,12 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
   segmenter.setOptions(options);
   bool found = false;
   if (!o.click.empty())
-    found = segmenter.segmentClick(s.left, o.click[0], o.click[1], segment);
+    found = segmenter.segmentClick(s.left, o.click[0], o.click[1], *s.cloud, segment);
   else if (!o.color.empty())
     found = segmenter.segmentColor(s.left, o.color[0], o.color[1], o.color[2], segment);
   else if (!roi.empty())
-    found = segmenter.segmentBox(s.left, {roi[0], roi[1], roi[2], roi[3]}, segment);
+    found = segmenter.segmentBox(
+        s.left, {roi[0], roi[1], roi[2], roi[3]}, *s.cloud, segment);
   else if (!s.disparity.empty() && o.stereo.matcher == StereoMatcher::BM) {
     // block matching loses most of a slanted table, so the table is looked for in the
     // denser semi-global disparities
@@ -88,9 +89,7 @@ void filterBorder(const FrontOptions& o, FrontResult& r) {
   pcl::IndicesPtr indices(new pcl::Indices(r.object));
   filter.setIndices(indices);
   filter.setMask(r.segment.mask);
-  filter.setBlockSize(o.stereo.block_size != 0                ? o.stereo.block_size
-                      : o.stereo.matcher == StereoMatcher::BM ? 15
-                                                              : 5);
+  filter.setBlockSize(o.stereo.blockSizeFor(static_cast<int>(r.stereo.cloud->width)));
   filter.filter(r.object);
 }
 
@@ -162,7 +161,7 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
          o.segment,
          "How the object's outline is found; none: only the box of --roi counts")
       ->type_name("none|color|grabcut")
-      ->default_str("grabcut, with the paper's preset and --roi none")
+      ->default_str("grabcut")
       ->check(CLI::IsMember({"none", "color", "grabcut"}));
   auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
                     ->expected(2)
@@ -231,9 +230,14 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   else {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
     r.rect = r.segment.rect;
+    if (!r.segment.outlined) // a box has no outline that the object could touch
+      r.segment.mask.release();
   }
   timer.run("roi", [&] {
     findRegion(r);
+    if (o.border_filter && r.segment.mask.empty())
+      throw Failure("colours do not tell the object from its surroundings, so there is "
+                    "no outline to filter along; leave out --border-filter.");
     if (o.border_filter)
       filterBorder(o, r);
     return true;

@@ -2,7 +2,7 @@
 #include "pcl_sq/stereo/object_segmenter.h"
 
 #include "stereo/color_models.h"
-#include "stereo/table_object.h"
+#include "stereo/depth_objects.h"
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
@@ -58,12 +58,25 @@ cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& wi
   return mask;
 }
 
+/** \brief The object in a box by a graph cut. \param[in] depth_labels what the cloud
+ * says of the window's pixels; empty without a cloud */
 cv::Mat cutInBox(const cv::Mat& image,
                  const cv::Rect& box,
                  const cv::Rect& window,
+                 const cv::Mat& depth_labels,
                  int iterations) {
   cv::Mat labels(window.size(), CV_8U, cv::Scalar(cv::GC_BGD));
-  labels(box - window.tl()).setTo(cv::GC_PR_FGD);
+  const cv::Rect inner = box - window.tl();
+  // boxes are drawn by hand: just outside of them is hardly the object, not surely not
+  const int dx = 1 + inner.width / 40, dy = 1 + inner.height / 40;
+  labels(
+      clipped({inner.x - dx, inner.y - dy, inner.width + 2 * dx, inner.height + 2 * dy},
+              labels))
+      .setTo(cv::GC_PR_BGD);
+  if (depth_labels.empty())
+    labels(inner).setTo(cv::GC_PR_FGD);
+  else
+    depth_labels(inner).copyTo(labels(inner));
   return detail::cutGraph(image(window), labels, iterations);
 }
 
@@ -106,6 +119,45 @@ cv::Mat nearColor(const cv::Mat& bgr, const cv::Vec3b& color, double radius) {
       mask.at<std::uint8_t>(v, u) = d < radius ? 255 : 0;
     }
   return mask;
+}
+
+/** \brief Pixels that hang together with a place by colour: the colours of a patch
+ * there, then of what they lead to. */
+cv::Mat growColors(const cv::Mat& bgr, const cv::Point& place) {
+  const int r = std::max(2, bgr.cols / 150);
+  const cv::Rect patch = clipped({place.x - r, place.y - r, 2 * r + 1, 2 * r + 1}, bgr);
+  cv::Mat object = cv::Mat::zeros(bgr.size(), CV_8U);
+  object(patch).setTo(255);
+  for (int round = 0; round < 3; ++round) {
+    const cv::Mat background = object == 0;
+    object = detail::componentAt(
+        detail::cleanMask(detail::colorProbability(bgr, object, background)) | object,
+        place);
+  }
+  return object;
+}
+
+/** \brief Share of what depth takes for the object, but for its rim, that a mask has.
+ * \param[in] labels of labelObjectInBox() */
+double coverage(const cv::Mat& mask, const cv::Mat& labels, const cv::Rect& box) {
+  cv::Mat likely = cv::Mat::zeros(labels.size(), CV_8U);
+  likely(box).setTo(255, labels(box) == cv::GC_PR_FGD);
+  // matching with windows makes objects fatter than they are
+  const int rim = 2 * std::max(1, std::min(box.width, box.height) / 12) + 1;
+  cv::erode(likely,
+            likely,
+            cv::getStructuringElement(cv::MORPH_ELLIPSE, {rim, rim}),
+            {-1, -1},
+            1,
+            cv::BORDER_CONSTANT,
+            cv::Scalar(0));
+  const int area = cv::countNonZero(likely);
+  return area == 0 ? 1.0 : static_cast<double>(cv::countNonZero(likely & mask)) / area;
+}
+
+bool sameSize(const cv::Mat& image, const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
+  return cloud.isOrganized() && image.cols == static_cast<int>(cloud.width) &&
+         image.rows == static_cast<int>(cloud.height);
 }
 
 } // namespace
@@ -164,8 +216,17 @@ bool ObjectSegmenter::finish(const std::string& method,
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                                  const PixelRect& box,
                                  Segment& segment) {
+  return segmentBox(image, box, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
+}
+
+bool ObjectSegmenter::segmentBox(const cv::Mat& image,
+                                 const PixelRect& box,
+                                 const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                 Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
     return fail("segmentBox", "the image must be 8-bit and not empty", segment);
+  if (!cloud.empty() && !sameSize(image, cloud))
+    return fail("segmentBox", "image and cloud differ in size", segment);
   const cv::Rect inside = clipped({box.x, box.y, box.width, box.height}, image);
   if (box.empty() || inside.width < 4 || inside.height < 4)
     return fail("segmentBox", "the box lies outside of the image or is empty", segment);
@@ -176,43 +237,60 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                 "the box is the whole image, so nothing shows the background; give a "
                 "smaller box",
                 segment);
-  cv::Mat mask = cv::Mat::zeros(bgr.size(), CV_8U);
-  const cv::Mat part = options_.method == SegmentMethod::COLOR
-                           ? colorInBox(bgr, inside, window)
-                           : cutInBox(bgr, inside, window, options_.iterations);
-  part.copyTo(mask(window));
-  const cv::Rect found = cv::boundingRect(detail::largestComponents(mask));
-  if (found.area() < 0.4 * inside.area()) {
+  const auto cut = [&](const cv::Mat& depth_labels) {
+    cv::Mat whole = cv::Mat::zeros(bgr.size(), CV_8U);
+    const cv::Mat part =
+        options_.method == SegmentMethod::COLOR
+            ? colorInBox(bgr, inside, window)
+            : cutInBox(bgr, inside, window, depth_labels, options_.iterations);
+    part.copyTo(whole(window));
+    return detail::largestComponents(whole);
+  };
+  cv::Mat mask = cut(cv::Mat());
+  cv::Mat depth_labels;
+  // colours alone draw the finer line, unless they see but a piece of what hangs
+  // together in depth
+  constexpr double PIECE = 0.7;
+  if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
+      detail::labelObjectInBox(cloud, inside, window, depth_labels))
+    if (coverage(mask(window), depth_labels, inside - window.tl()) < PIECE)
+      mask = cut(depth_labels);
+  const bool told = cv::boundingRect(mask).area() >= 0.4 * inside.area();
+  if (!told) {
     PCL_WARN(
         "[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
         "its surroundings; the whole box is used.\n");
     mask(inside).setTo(255);
   }
-  return finish("segmentBox", mask, segment);
+  const bool found = finish("segmentBox", mask, segment);
+  segment.outlined = told;
+  return found;
 }
 
 bool ObjectSegmenter::segmentClick(const cv::Mat& image,
                                    int x,
                                    int y,
                                    Segment& segment) {
+  return segmentClick(image, x, y, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
+}
+
+bool ObjectSegmenter::segmentClick(const cv::Mat& image,
+                                   int x,
+                                   int y,
+                                   const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                   Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
     return fail("segmentClick", "the image must be 8-bit and not empty", segment);
+  if (!cloud.empty() && !sameSize(image, cloud))
+    return fail("segmentClick", "image and cloud differ in size", segment);
   if (x < 0 || y < 0 || x >= image.cols || y >= image.rows)
     return fail("segmentClick", "the point lies outside of the image", segment);
   const cv::Mat bgr = toBgr(image);
-  const int r = std::max(2, image.cols / 150);
-  const cv::Rect patch = clipped({x - r, y - r, 2 * r + 1, 2 * r + 1}, bgr);
-  cv::Mat object = cv::Mat::zeros(bgr.size(), CV_8U);
-  object(patch).setTo(255);
-  // grow: colours of the patch, then of what they lead to
   cv::Mat rough;
-  for (int round = 0; round < 3; ++round) {
-    const cv::Mat background = object == 0;
-    const cv::Mat mask =
-        detail::cleanMask(detail::colorProbability(bgr, object, background)) | object;
-    rough = detail::componentAt(mask, {x, y});
-    object = rough;
-  }
+  const bool by_depth = !cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
+                        detail::findObjectAt(cloud, {x, y}, rough);
+  if (!by_depth)
+    rough = growColors(bgr, {x, y});
   if (cv::countNonZero(rough) > 0.5 * static_cast<double>(rough.total()))
     return fail("segmentClick",
                 "the object's colour is that of the background; give a box",
@@ -249,9 +327,7 @@ bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
                                       Segment& segment) {
   if (!cloud.isOrganized() || cloud.empty())
     return fail("segmentTabletop", "the cloud must be organized", segment);
-  const auto width = static_cast<int>(cloud.width);
-  const auto height = static_cast<int>(cloud.height);
-  if (!image.empty() && (image.cols != width || image.rows != height))
+  if (!image.empty() && !sameSize(image, cloud))
     return fail("segmentTabletop", "image and cloud differ in size", segment);
   cv::Mat rough;
   std::string why;

@@ -51,6 +51,46 @@ TEST_P(MiddleburyPairs, BlockMatchingIsWithinAFifthOfAPixel) {
   EXPECT_THROW((void)reprojector.compute(right, left), Exception);
 }
 
+TEST_P(MiddleburyPairs, OcclusionsFollowFromTheLeftTruth) {
+  const std::string folder = DATA + "/stereo/" + GetParam().name + "/";
+  if (!std::filesystem::exists(folder + "mask0nocc.png"))
+    GTEST_SKIP() << "no mask in " << folder;
+  const cv::Mat mask = cv::imread(folder + "mask0nocc.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat visible = visibleInRight(readPfm(folder + "disp0.pfm"));
+  const int agree = cv::countNonZero((visible == 255) == (mask == 255));
+  EXPECT_GE(agree, 0.97 * static_cast<double>(mask.total()));
+}
+
+// The set has neither a mask of occlusions nor doffs: disparities only. Its truth comes in
+// thirds of a pixel and ours in sixteenths, so that errors are multiples of 1/48 px.
+TEST(LaundryPair, BlockMatchingIsWithinAFifthOfAPixelWhereBothCamerasSee) {
+  const std::string folder = DATA + "/stereo/laundry/";
+  if (!std::filesystem::exists(folder))
+    GTEST_SKIP() << "no data in " << folder;
+  const cv::Mat left = cv::imread(folder + "im0.png");
+  const cv::Mat right = cv::imread(folder + "im1.png");
+  const cv::Mat truth = readPfm(folder + "disp0.pfm");
+  StereoIntrinsics k;
+  k.fx = k.fy = 3740.0 / 3.0;
+  k.cx = 0.5 * left.cols;
+  k.cy = 0.5 * left.rows;
+  k.baseline = 0.16;
+  const StereoReprojector reprojector;
+  const cv::Mat disparity = reprojector.computeDisparity(left, right, k);
+  const DisparityError error =
+      compareDisparity(disparity, truth, visibleInRight(truth));
+  EXPECT_LE(error.median, 0.2);
+  EXPECT_GE(error.coverage, 0.6);
+  Segment segment;
+  ObjectSegmenter segmenter;
+  const PixelRect bottle{290, 150, 90, 197}; // by hand, about 5 px
+  ASSERT_TRUE(segmenter.segmentBox(
+      left,
+      {bottle.x - 8, bottle.y - 8, bottle.width + 16, bottle.height + 16},
+      segment));
+  EXPECT_GE(overlap(segment.rect, bottle), 0.85);
+}
+
 INSTANTIATE_TEST_SUITE_P(Data,
                          MiddleburyPairs,
                          ::testing::Values(PairCase{"adirondack", 0.72},
