@@ -14,6 +14,7 @@ constexpr std::size_t WORKING_POINTS = 16384;  ///< more do not change the mixtu
 constexpr std::size_t MEASURED_POINTS = 65536; ///< for the reported distances
 constexpr double MAX_AXIS = 30.0;              ///< standard deviations of the cloud
 constexpr double MIN_AXIS = 1e-4;
+constexpr double FARTHEST = 1e6; ///< a start's centre; floats hold squares of it
 
 /** \brief Inverse of the information in the free directions, in the cloud's unit. */
 Eigen::Matrix<double, 11, 11>
@@ -124,6 +125,10 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     summary.termination = framed && all.size() >= MIN_POINTS
                               ? Termination::DEGENERATE
                               : Termination::TOO_FEW_POINTS;
+    return summary;
+  }
+  if (initial && !(frame.toUnit(initial->center).norm() < FARTHEST)) {
+    summary.termination = Termination::INVALID_OPTIONS;
     return summary;
   }
   const UnitPoints part = subset(all, WORKING_POINTS);

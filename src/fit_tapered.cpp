@@ -17,9 +17,6 @@ constexpr std::size_t FINAL_POINTS = 16384;
 constexpr std::size_t DECIDING_POINTS = 2048;
 constexpr std::size_t MEDIUM_POINTS = 512;
 constexpr std::size_t COARSE_POINTS = 256;
-/** \brief Very strong evidence (Kass & Raftery 1995), 2 ln B > 10: noise that differs
- * from place to place looks like a weak one. */
-constexpr double DEMAND = 5.0;
 constexpr double WIDE = 0.1; ///< sigma of the starts, in the cloud's deviation
 
 /** \brief The untapered fit in its three axis orders, and the search's own starts. */
@@ -107,14 +104,16 @@ TaperedFit fitTapered(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
 
   const auto n = double(problem.size());
   result.margin = n * (best - tapered.nll) - std::log(n); // two parameters, half each
-  if (tapering == Tapering::AUTOMATIC && !(result.margin > DEMAND))
+  if (tapering == Tapering::AUTOMATIC && !(result.margin > TaperedFit::DEMAND))
     return result;
   setting.size_prior = options.size_prior;
   const TaperProblem final_problem(all, setting, area);
   tapered = converged(final_problem, tapered, true, setting);
   result.model = tapered.model;
   result.model.shape = frame.toCloud(tapered.model.shape);
-  result.taper_deviations = final_problem.taperDeviations(tapered);
+  const Eigen::Vector2d deviations = final_problem.taperDeviations(tapered);
+  result.kx_deviation = deviations.x();
+  result.ky_deviation = deviations.y();
   result.sigma = tapered.mixture.sigma * frame.scale;
   result.outlier_share = tapered.mixture.outlier_share;
   result.rms_distance = final_problem.rmsDistance(tapered.model) * frame.scale;

@@ -11,6 +11,9 @@ constexpr double MIN_DAMPING = 1e-9;
 constexpr double MAX_DAMPING = 1e8;
 constexpr double DAMPING_DOWN = 0.2;
 constexpr double DAMPING_UP = 6.0;
+/** \brief A point's share in what rounding alone changes in a cost: single-precision
+ * residuals of points of size one, squared. Exact points would else keep a fit busy. */
+constexpr double ROUNDING = 1e-14;
 constexpr double TRUST = 0.7; ///< largest step of an angle, a logarithm, an exponent
 
 kernels::Mixture mixture(const LmOptions& o) {
@@ -132,6 +135,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
   const auto& basis = o.space.basis;
   const int n = static_cast<int>(basis.cols());
   const bool all = n == 11 && basis.isIdentity(0.0);
+  const double rounding = ROUNDING * double(points.size());
   double damping = o.initial_damping;
   bool fresh = true; // the equations changed since they were last reduced
   Matrix11 jtj;
@@ -155,7 +159,8 @@ LmResult levenbergMarquardt(const UnitPoints& points,
     if (solved) {
       // what the model itself promises; not worth an evaluation once it is nothing
       const double promised = -jtr.head(n).dot(step.head(n));
-      if (damping <= 1.0 && promised <= o.cost_tolerance * r.equations.points_cost) {
+      const double negligible = o.cost_tolerance * r.equations.points_cost + rounding;
+      if (damping <= 1.0 && promised <= negligible) {
         r.termination = Termination::COST_CHANGE_TOO_SMALL;
         break;
       }
@@ -165,8 +170,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
       const NormalEquations e = evaluate(points, candidate, o);
       if (e.cost < r.equations.cost) {
         const double decrease = r.equations.cost - e.cost;
-        const bool small =
-            !limited && decrease <= o.cost_tolerance * r.equations.points_cost;
+        const bool small = !limited && decrease <= negligible;
         r.model = candidate;
         r.equations = e;
         fresh = true;

@@ -224,8 +224,7 @@ std::string reportToJson(const ModelResult& result) {
   if (result.taper)
     json["taper"] = {
         {"margin", result.taper->margin},
-        {"deviations",
-         {result.taper->taper_deviations.x(), result.taper->taper_deviations.y()}}};
+        {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
   return nlohmann::ordered_json{{"report", json}}.dump();
 }

@@ -96,9 +96,10 @@ void printSummary(const ModelResult& result) {
     std::printf("\n");
   }
   if (result.taper)
-    std::printf("  a taper is %s by the points (margin %.1f, 5 would do)\n",
+    std::printf("  a taper is %s by the points (margin %.1f, %.0f would do)\n",
                 result.taper->model.isTapered() ? "demanded" : "not demanded",
-                result.taper->margin);
+                result.taper->margin,
+                TaperedFit::DEMAND);
   std::printf(
       "  distortion (paper's unit) %.3f, rms distance %.2f mm, %zu grasp points\n",
       file.distortion * std::sqrt(1e9),

@@ -8,19 +8,23 @@ namespace pcl_sq {
 
 /** \brief When fitTapered() tapers. */
 enum class Tapering {
-  AUTOMATIC, ///< where the points demand it: a margin of more than 5 nats
+  AUTOMATIC, ///< where the points demand it: a margin above TaperedFit::DEMAND
   ALWAYS     ///< the best taper, however small
 };
 
 /** \brief Result of fitTapered(). */
 struct PCL_SQ_EXPORTS TaperedFit {
+  /** rief Margin from which on the points demand a taper [nats]. Twice the "very
+   * strong" of Kass & Raftery 1995: noise that is not alike everywhere, as that of
+   * stereo, now and then favours a taper that is not there. */
+  static constexpr double DEMAND = 10.0;
+
   TaperedSuperquadric model; ///< without taper where none was chosen
   /** \brief By how much the taper wins, [nats]: the gain in log-likelihood less ln N
-   * for the two further parameters (half of Schwarz's BIC 1978). Above 5 the evidence
-   * is very strong (Kass & Raftery 1995). */
+   * for the two further parameters (half of Schwarz's BIC 1978). */
   double margin = 0.0;
-  /** \brief Standard deviations of kx and ky; zero where none was chosen. */
-  Eigen::Vector2d taper_deviations = Eigen::Vector2d::Zero();
+  double kx_deviation = 0.0;  ///< standard deviation of kx; zero where none was chosen
+  double ky_deviation = 0.0;  ///< and of ky
   double rms_distance = 0.0;  ///< of the foot-point distance to \a model [m]
   double sigma = 0.0;         ///< noise of the points on the surface of \a model [m]
   double outlier_share = 0.0; ///< share of points that belong elsewhere
@@ -36,9 +40,9 @@ struct PCL_SQ_EXPORTS TaperedFit {
  * the two parameters of the taper free, with the same mixture and distance; the best is
  * compared with the best body without taper that either fit finds, by their distances
  * to the points alone. 2,048 of the points decide and 16,384 determine the result; some
- * 50 ms, whether there is a taper or not. \param[in] points 3 x N in the cloud's frame
- * [m]; non-finite columns are left out \param[in] options as of fitSuperquadric();
- * nothing may be fixed */
+ * 50 ms, whether there is a taper or not.
+ * \param[in] points 3 x N in the cloud's frame [m]; non-finite columns are left out
+ * \param[in] options as of fitSuperquadric(); nothing may be fixed */
 PCL_SQ_EXPORTS TaperedFit fitTapered(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                      const FitOptions& options = {},
                                      Tapering tapering = Tapering::AUTOMATIC);
