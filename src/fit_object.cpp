@@ -4,6 +4,7 @@
 
 #include "object_piece.h"
 #include "option_check.h"
+#include "point_set.h"
 
 #include <algorithm>
 
@@ -184,6 +185,8 @@ bool ObjectFitOptions::isValid(std::string* why) const {
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
   ObjectFit fit;
+  if (spannedDimensions(observed.points) < 3)
+    return fit;
   const double noise = options.fit.noise > 0.0
                            ? options.fit.noise
                            : localNoise(observed.points, observed.effective_points);
