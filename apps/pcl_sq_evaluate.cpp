@@ -80,7 +80,7 @@ ReferenceShape loadShape(const Options& o) {
 }
 
 Json toJson(const DistanceFigures& d) {
-  return {{"mean", d.mean}, {"rms", d.rms}, {"max", d.max}};
+  return {{"mean", d.mean}, {"rms", d.rms}, {"median", d.median}, {"max", d.max}};
 }
 
 Json toJson(const ShapeFigures& f) {
@@ -138,9 +138,10 @@ void printTable(const Json& json) {
     line("chamfer", 1e3 * s["chamfer"].get<double>(), "mm");
   }
   if (json.contains("cloud"))
-    line("cloud to model, rms",
-         1e3 * json["cloud"]["distance"]["rms"].get<double>(),
-         "mm");
+    for (const char* figure : {"rms", "median"})
+      line((std::string("cloud to model, ") + figure).c_str(),
+           1e3 * json["cloud"]["distance"][figure].get<double>(),
+           "mm");
   line("D (Eq. 7, mm)", json["distortion_mm"].get<double>(), "");
 }
 

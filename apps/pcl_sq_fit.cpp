@@ -22,6 +22,7 @@ const char* const EXAMPLES =
     "  pcl_sq_fit scene.pcd --remove-plane --mesh object.ply\n"
     "  pcl_sq_fit kinect.pcd --roi 250,200,140,180 --grasp-points grasp.pcd\n"
     "  pcl_sq_fit can.ply --decomposition none\n"
+    "  pcl_sq_fit cup.ply --decomposition none --taper --mesh cup.stl\n"
     "  pcl_sq_fit scene.pcd --mask mask.png --grasps 20 --gripper wsg_50 -o cup.json\n"
     "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n";
 
@@ -131,6 +132,8 @@ int checkedFit(const Arguments& arguments) {
     throw app::UsageError(
         "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps and --snapshot "
         "are for one cloud.");
+  if (arguments.grasps > 0 && options.taper)
+    throw app::UsageError("--grasps cannot respect a taper; leave --taper out.");
   if (arguments.grasps > 0)
     app::checkGraspOptions(arguments.grasp_options);
   app::checkModelOptions(options);
@@ -155,6 +158,7 @@ int main(int argc, char** argv) {
                      arguments.jsonl,
                      "One JSON line per cloud, on stdout or in -o; clouds in parallel");
         app::addModelOptions(cli, arguments.options);
+        app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")

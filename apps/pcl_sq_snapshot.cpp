@@ -109,18 +109,16 @@ void check(Arguments& a) {
   app::checkWritable(a.output);
 }
 
-/** \brief The upward direction that pcl_sq_fit found, if it found one. */
-std::optional<Eigen::Vector3d> upOf(const ModelFile& file) {
+/** \brief Three numbers that pcl_sq_fit reports: "up", "sensor"; if it does. */
+std::optional<Eigen::Vector3d> reported(const ModelFile& file,
+                                        const std::string& name) {
   const auto extra = nlohmann::json::parse(file.extra_json);
-  const auto up =
-      extra.value(nlohmann::json::json_pointer("/report/up"), nlohmann::json::array());
-  if (!up.is_array() || up.size() != 3 || !up[0].is_number() || !up[1].is_number() ||
-      !up[2].is_number())
+  const auto v = extra.value(nlohmann::json::json_pointer("/report/" + name),
+                             nlohmann::json::array());
+  if (!v.is_array() || v.size() != 3 || !v[0].is_number() || !v[1].is_number() ||
+      !v[2].is_number())
     return std::nullopt;
-  const Eigen::Vector3d direction(up[0], up[1], up[2]);
-  if (!(direction.norm() > 1e-6))
-    return std::nullopt;
-  return direction;
+  return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
 int takePictures(const Arguments& a) {
@@ -128,14 +126,14 @@ int takePictures(const Arguments& a) {
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
-    if (!fromJson(app::readFile(a.model), file, &why))
+    if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
-    renderer.addModel(file.model);
-    if (const auto up = upOf(file); up && a.up.empty()) {
-      SnapshotOptions options = a.options;
+    app::addModel(renderer, file);
+    SnapshotOptions options = a.options;
+    options.sensor = reported(file, "sensor");
+    if (const auto up = reported(file, "up"); up && up->norm() > 1e-6 && a.up.empty())
       options.up = *up;
-      renderer.setOptions(options);
-    }
+    renderer.setOptions(options);
   }
   if (!a.cloud.empty())
     app::addCloud(renderer, app::loadCloud(a.cloud));

@@ -65,8 +65,6 @@ void writeImage(const std::string& path, const cv::Mat& image) {
 }
 
 void writeDisparity(const std::string& path, const cv::Mat& disparity) {
-  if (disparity.empty())
-    throw Failure("a depth image has no disparity to write; leave out --disparity.");
   const cv::Mat missing = disparity != disparity;
   cv::Mat out = disparity.clone();
   if (extensionOf(path) == ".pfm")
@@ -161,12 +159,39 @@ PanelInput panelInput(const FrontResult& front,
   in.rect = front.rect;
   in.histogram = front.histogram;
   in.disparity_scale = front.stereo.intrinsics.fx * front.stereo.intrinsics.baseline;
+  const CameraIntrinsics& k = front.stereo.intrinsics;
+  in.camera.fx = k.fx;
+  in.camera.fy = k.fy;
+  in.camera.cx = k.cx;
+  in.camera.cy = k.cy;
   in.region = front.region;
   in.cloud = scene.cloud;
   in.object = object.cloud;
   in.report = result.report;
   in.model = result.file.model;
   return in;
+}
+
+/** \brief Takes the points under the object's mask that lie far from its box out of a
+ * scene: false matches along the outline, with the depth of what is behind. */
+void dropStrays(const FrontResult& front, LoadedCloud& scene) {
+  constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
+  constexpr double REACH =
+      0.15; // of the box's diagonal: the aperture cuts thin ends off
+  const Eigen::Vector3d margin =
+      Eigen::Vector3d::Constant(REACH * front.region.sizes().norm());
+  RoiBox box = front.region;
+  box.min -= margin;
+  box.max += margin;
+  const auto* mask = front.segment.mask.ptr<std::uint8_t>();
+  for (std::size_t i = 0; i < scene.cloud->size(); ++i) {
+    auto& p = (*scene.cloud)[i];
+    if (mask[i] != 0 && std::isfinite(p.z) &&
+        !box.contains(p.getVector3fMap().cast<double>())) {
+      p.x = p.y = p.z = NOTHING;
+      --scene.finite_points;
+    }
+  }
 }
 
 /** \brief Tells the model half what the images gave. The best mode looks at the whole
@@ -216,17 +241,18 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   const bool best = model.estimation.decomposition == Decomposition::PARTS;
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
-  if (front_options.segment.empty() && front_options.mask.empty() && !best &&
-      !model.roi.empty() && front_options.click.empty() && front_options.color.empty())
-    front_options.segment = "none";
   checkFrontOptions(front_options, model.roi);
   checkModelOptions(model);
+  if (!front_options.depth.empty() && !outputs.disparity.empty())
+    throw UsageError("a depth image has no disparity to write; leave out --disparity.");
   checkOutputs(outputs);
   const FrontResult front = runFront(front_options, model.roi);
   writeFront(front, outputs);
   handOver(front, best, model);
   const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
-  const LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
+  LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
+  if (!front.segment.mask.empty())
+    dropStrays(front, scene);
   const std::string input =
       front_options.left.empty() ? front_options.depth : front_options.left;
   ModelResult result = makeModel(best ? scene : object, input, model, 0.0);

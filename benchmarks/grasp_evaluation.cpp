@@ -3,7 +3,10 @@
 // planner's: the closing line is cast through a mesh of the truth, collisions are
 // looked for with points of its surface.
 #include "app.h"
+#include "cloud_io.h"
 #include "files.h"
+#include "grasp_truth.h"
+#include "mesh_reader.h"
 
 #include "pcl_sq/grasp_planner.h"
 #include "pcl_sq/model_io.h"
@@ -11,116 +14,17 @@
 #include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include <pcl/common/point_tests.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <limits>
+#include <filesystem>
 #include <random>
-#include <sstream>
 
 using namespace pcl_sq;
+using namespace nlohmann::literals;
 
 namespace {
-
-struct Truth {
-  TriangleMesh mesh;
-  std::vector<Eigen::Vector3d> samples; ///< uniform on the surface
-};
-
-struct Outcome {
-  bool antipodal = false, collision_free = false;
-};
-
-constexpr std::size_t SAMPLES = 30000;
-
-/** \brief Surface points by area, repeatable. */
-void sampleSurface(Truth& truth) {
-  std::vector<double> areas;
-  for (const auto& t : truth.mesh.triangles)
-    areas.push_back((truth.mesh.vertices[t[1]] - truth.mesh.vertices[t[0]])
-                        .cross(truth.mesh.vertices[t[2]] - truth.mesh.vertices[t[0]])
-                        .norm());
-  std::mt19937 engine(7);
-  std::discrete_distribution<std::size_t> pick(areas.begin(), areas.end());
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  while (truth.samples.size() < SAMPLES) {
-    const auto& t = truth.mesh.triangles[pick(engine)];
-    double u = share(engine), v = share(engine);
-    if (u + v > 1.0) {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    const Eigen::Vector3d& a = truth.mesh.vertices[t[0]];
-    truth.samples.push_back(a + u * (truth.mesh.vertices[t[1]] - a) +
-                            v * (truth.mesh.vertices[t[2]] - a));
-  }
-}
-
-/** \brief First hit of a ray with the mesh: distance and the triangle's normal, turned
- * against the ray. */
-bool castRay(const TriangleMesh& mesh,
-             const Eigen::Vector3d& origin,
-             const Eigen::Vector3d& direction,
-             double& distance,
-             Eigen::Vector3d& normal) {
-  distance = std::numeric_limits<double>::infinity();
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d& a = mesh.vertices[t[0]];
-    const Eigen::Vector3d ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
-    const Eigen::Vector3d p = direction.cross(ac);
-    const double det = ab.dot(p);
-    if (std::abs(det) < 1e-18)
-      continue;
-    const Eigen::Vector3d s = origin - a;
-    const double u = s.dot(p) / det;
-    const Eigen::Vector3d q = s.cross(ab);
-    const double v = direction.dot(q) / det, at = ac.dot(q) / det;
-    if (u < 0.0 || v < 0.0 || u + v > 1.0 || at < 0.0 || at >= distance)
-      continue;
-    distance = at;
-    normal = ab.cross(ac).normalized();
-    if (normal.dot(direction) > 0.0)
-      normal = -normal;
-  }
-  return std::isfinite(distance);
-}
-
-/** \brief Closes two jaws from the open position on the true surface. */
-bool trulyAntipodal(const Grasp& grasp, const Truth& truth, double friction) {
-  const Eigen::Vector3d y = grasp.closing();
-  const double out = 0.5 * grasp.open_width;
-  const Eigen::Vector3d line =
-      0.5 * (grasp.contacts[0].position + grasp.contacts[1].position);
-  double d[2];
-  Eigen::Vector3d n[2];
-  if (!castRay(truth.mesh, line + out * y, -y, d[0], n[0]) ||
-      !castRay(truth.mesh, line - out * y, y, d[1], n[1]))
-    return false;
-  if (d[0] + d[1] >= 2.0 * out) // the jaws met nothing between them
-    return false;
-  const double least = 1.0 / std::sqrt(1.0 + friction * friction);
-  return n[0].dot(y) >= least && n[1].dot(-y) >= least;
-}
-
-bool trulyFree(const Grasp& grasp,
-               const Truth& truth,
-               const GraspScene& scene,
-               const Gripper& gripper,
-               double retreat) {
-  const std::vector<double> reach(2, 0.5 * grasp.open_width);
-  for (const double back : {0.0, 0.2, 0.5, 1.0})
-    for (const OrientedBox& box :
-         gripper.boxes(grasp.position - back * retreat * grasp.approach(),
-                       grasp.rotation,
-                       reach)) {
-      if (scene.has_table &&
-          scene.table_offset - box.support(-scene.table_normal) < 0.0)
-        return false;
-      for (const Eigen::Vector3d& p : truth.samples)
-        if (box.contains(p))
-          return false;
-    }
-  return true;
-}
 
 /** \brief The points without those far from the others, as the outliers of a stereo
  * camera are: beyond three times the median distance from the median. */
@@ -195,44 +99,50 @@ MultiSuperquadric perturbed(MultiSuperquadric model, unsigned seed) {
 }
 
 Eigen::Matrix3Xd readPoints(const std::string& path) {
-  std::istringstream stream(app::readFile(path));
-  std::vector<double> numbers;
-  for (double x; stream >> x;)
-    numbers.push_back(x);
-  return Eigen::Map<Eigen::Matrix3Xd>(
-      numbers.data(), 3, Eigen::Index(numbers.size() / 3));
-}
-
-TriangleMesh readOff(const std::string& path) {
-  std::istringstream stream(app::readFile(path));
-  std::string word;
-  std::size_t vertices = 0, faces = 0, edges = 0;
-  stream >> word >> vertices >> faces >> edges;
-  TriangleMesh mesh;
-  for (std::size_t i = 0; i < vertices; ++i) {
-    Eigen::Vector3d v;
-    stream >> v.x() >> v.y() >> v.z();
-    mesh.vertices.push_back(v);
-  }
-  for (std::size_t i = 0; i < faces; ++i) {
-    std::array<std::uint32_t, 3> t;
-    std::size_t count = 0;
-    stream >> count >> t[0] >> t[1] >> t[2];
-    mesh.triangles.push_back(t);
-  }
-  if (!stream || word != "OFF")
-    throw app::Failure("'" + path + "' is no OFF file of triangles.");
-  return mesh;
+  const app::LoadedCloud loaded = app::loadCloud(path);
+  Eigen::Matrix3Xd points(3, Eigen::Index(loaded.finite_points));
+  Eigen::Index count = 0;
+  for (const auto& p : *loaded.cloud)
+    if (pcl::isXYZFinite(p))
+      points.col(count++) = p.getVector3fMap().cast<double>();
+  return points;
 }
 
 Eigen::Vector3d vectorOf(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
+Eigen::Matrix3d matrixOf(const nlohmann::json& rows) {
+  Eigen::Matrix3d matrix;
+  for (std::size_t r = 0; r < 3; ++r)
+    matrix.row(Eigen::Index(r)) = vectorOf(rows.at(r));
+  return matrix;
+}
+
+/** \brief The mesh that a truth file names, in the scene's frame. */
+TriangleMesh trueMesh(const std::string& truth_path, const nlohmann::json& truth) {
+  const auto folder = std::filesystem::path(truth_path).parent_path();
+  TriangleMesh mesh =
+      app::readMesh((folder / truth.at("mesh").get<std::string>()).string());
+  const Eigen::Matrix3d rotation = matrixOf(truth.at("pose").at("rotation"));
+  const Eigen::Vector3d translation = vectorOf(truth.at("pose").at("translation"));
+  for (Eigen::Vector3d& vertex : mesh.vertices)
+    vertex = rotation * vertex + translation;
+  return mesh;
+}
+
+void setTable(const nlohmann::json& plane, GraspScene& scene) {
+  scene.has_table = plane.is_array() && plane.size() == 4;
+  if (!scene.has_table)
+    return;
+  scene.table_normal = vectorOf(plane);
+  scene.table_offset = plane.at(3);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-  std::string truth_path, model, mesh_path, points_path, gripper_name = "wsg_50";
+  std::string truth_path, model, points_path, gripper_name = "wsg_50";
   GraspPlannerOptions options;
   options.count = 10;
   unsigned seed = 0;
@@ -247,8 +157,7 @@ int main(int argc, char** argv) {
         cli.add_option("truth", truth_path, "truth.json: parts, table")->required();
         cli.add_option("--model", model, "true, perturbed, box or a model file")
             ->required();
-        cli.add_option("--mesh", mesh_path, "True surface as OFF instead of the parts");
-        cli.add_option("--points", points_path, "Object's points (for box), text");
+        cli.add_option("--points", points_path, "Object's points (for box)");
         cli.add_option("--gripper", gripper_name)->capture_default_str();
         cli.add_option("--count", options.count)->capture_default_str();
         cli.add_option("--friction", options.friction)->capture_default_str();
@@ -269,19 +178,15 @@ int main(int argc, char** argv) {
             s.rotation(k / 3, k % 3) = p.at("R").at(std::size_t(k));
           parts.parts.push_back(s);
         }
-        Truth truth;
-        truth.mesh = mesh_path.empty() ? parts.meshParts(48) : readOff(mesh_path);
-        sampleSurface(truth);
+        const GraspTruth truth(json.contains("mesh") ? trueMesh(truth_path, json)
+                                                     : parts.meshParts(48));
         GraspScene scene;
-        scene.has_table = json.contains("table");
-        if (scene.has_table) {
-          scene.table_normal = vectorOf(json.at("table"));
-          scene.table_offset = json.at("table").at(3);
-        }
+        setTable(json.value("table", nlohmann::json()), scene);
         if (!blind && !points_path.empty()) {
           scene.cloud = readPoints(points_path);
           scene.has_viewpoint = true; // at the origin of the camera's frame
         }
+        GraspScene known = scene;
         MultiSuperquadric planned;
         if (model == "true")
           planned = parts;
@@ -295,11 +200,15 @@ int main(int argc, char** argv) {
           if (!fromJson(app::readFile(model), file, &why))
             throw app::Failure("'" + model + "': " + why);
           planned = file.model;
+          // a robot knows no other table than the one that the fit found
+          setTable(nlohmann::json::parse(app::readFile(model))
+                       .value("/report/table"_json_pointer, nlohmann::json()),
+                   known);
         }
         Gripper gripper;
         if (!Gripper::preset(gripper_name, gripper) || gripper.fingers != 2)
           throw app::UsageError("--gripper takes a preset with two jaws");
-        const GraspPlan plan = GraspPlanner(gripper, options).plan(planned, scene);
+        const GraspPlan plan = GraspPlanner(gripper, options).plan(planned, known);
         nlohmann::ordered_json out = {
             {"truth", truth_path}, {"model", model}, {"grasps", plan.grasps.size()}};
         if (!plan.ok())
@@ -308,9 +217,8 @@ int main(int argc, char** argv) {
         out["free"] = nlohmann::json::array();
         out["score"] = nlohmann::json::array();
         for (const Grasp& grasp : plan.grasps) {
-          out["antipodal"].push_back(trulyAntipodal(grasp, truth, options.friction));
-          out["free"].push_back(
-              trulyFree(grasp, truth, scene, gripper, options.retreat));
+          out["antipodal"].push_back(truth.isAntipodal(grasp, options.friction));
+          out["free"].push_back(truth.isFree(grasp, scene, gripper, options.retreat));
           out["score"].push_back(grasp.scores.total);
         }
         std::printf("%s\n", out.dump().c_str());

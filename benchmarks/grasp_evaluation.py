@@ -6,8 +6,9 @@ usage: grasp_evaluation.py PROGRAM SCENES [--models true perturbed box] [--fitte
                            [--gripper wsg_50] [--limit N]
 
 PROGRAM is pcl_sq_benchmark_grasp_evaluation. SCENES holds one folder per scene with
-truth.json (parts, table) and object.xyz (the object's points). --fitted NAME also plans on
-SCENES/<i>/NAME, a model file written by pcl_sq_fit.
+truth.json (parts or a mesh, table) and the object's points in object.xyz or object.pcd.
+--fitted NAME also plans on SCENES/<i>/NAME, a model file written by pcl_sq_fit or
+pcl_sq_stereo.
 """
 import argparse
 import json
@@ -17,9 +18,7 @@ import subprocess
 
 def evaluate(program, scene, model, gripper, seed):
     command = [program, scene / "truth.json", "--model", str(model), "--gripper", gripper,
-               "--points", scene / "object.xyz", "--seed", str(seed)]
-    if (scene / "truth.off").exists():
-        command += ["--mesh", scene / "truth.off"]
+               "--points", next(scene.glob("object.*")), "--seed", str(seed)]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode != 0:
         return {"grasps": 0, "failure": done.stderr.strip(), "antipodal": [], "free": []}

@@ -14,6 +14,7 @@ constexpr std::size_t WORKING_POINTS = 16384;  ///< more do not change the mixtu
 constexpr std::size_t MEASURED_POINTS = 65536; ///< for the reported distances
 constexpr double MAX_AXIS = 30.0;              ///< standard deviations of the cloud
 constexpr double MIN_AXIS = 1e-4;
+constexpr double FARTHEST = 1e6; ///< a start's centre; floats hold squares of it
 
 /** \brief Inverse of the information in the free directions, in the cloud's unit. */
 Eigen::Matrix<double, 11, 11>
@@ -65,22 +66,6 @@ void addDistances(const UnitPoints& points,
                        evaluateCost(points, unit_model, o) / n;
 }
 
-FitSetting settingOf(const FitOptions& options, std::size_t count) {
-  FitSetting s;
-  s.lm.min_epsilon = options.min_epsilon;
-  s.lm.max_epsilon = options.max_epsilon;
-  s.lm.min_axis = MIN_AXIS;
-  s.lm.max_axis = MAX_AXIS;
-  s.lm.space = ParameterSpace::without(options.fixed);
-  // a fiftieth of what one point more or less would change
-  s.lm.cost_tolerance = 0.02 / double(count);
-  s.limits.robust = options.robust;
-  s.limits.max_outlier_share = options.max_outlier_share;
-  s.size_prior = options.size_prior;
-  s.max_iterations = options.max_iterations;
-  return s;
-}
-
 /** \brief A start's mixture from its residuals: half of the points are closer. */
 Candidate
 candidateAt(const UnitPoints& points, const Superquadric& start, const FitSetting& s) {
@@ -106,6 +91,22 @@ candidateAt(const UnitPoints& points, const Superquadric& start, const FitSettin
 
 } // namespace
 
+FitSetting settingOf(const FitOptions& options, std::size_t count) {
+  FitSetting s;
+  s.lm.min_epsilon = options.min_epsilon;
+  s.lm.max_epsilon = options.max_epsilon;
+  s.lm.min_axis = MIN_AXIS;
+  s.lm.max_axis = MAX_AXIS;
+  s.lm.space = ParameterSpace::without(options.fixed);
+  // a fiftieth of what one point more or less would change
+  s.lm.cost_tolerance = 0.02 / double(count);
+  s.limits.robust = options.robust;
+  s.limits.max_outlier_share = options.max_outlier_share;
+  s.size_prior = options.size_prior;
+  s.max_iterations = options.max_iterations;
+  return s;
+}
+
 FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                    const Superquadric* initial,
                    const FitOptions& options,
@@ -124,6 +125,10 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     summary.termination = framed && all.size() >= MIN_POINTS
                               ? Termination::DEGENERATE
                               : Termination::TOO_FEW_POINTS;
+    return summary;
+  }
+  if (initial && !(frame.toUnit(initial->center).norm() < FARTHEST)) {
+    summary.termination = Termination::INVALID_OPTIONS;
     return summary;
   }
   const UnitPoints part = subset(all, WORKING_POINTS);

@@ -22,6 +22,10 @@ struct FitSetting {
   int iterations = 0; ///< counted by the stages
 };
 
+/** \brief The setting for a cloud of \a count points; a noise that is given needs the
+ * cloud's unit and is left to the caller. */
+FitSetting settingOf(const FitOptions& options, std::size_t count);
+
 /** \brief Fits of one start; the mixture is estimated anew after each round.
  * \param[in] slowest factor by which sigma may shrink in a round at most: the basin
  * narrows with it */

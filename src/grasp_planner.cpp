@@ -71,6 +71,8 @@ bool GraspPlannerOptions::isValid(std::string* why) const {
     return fail("min_distance or min_angle is not positive");
   if (observed_distance <= 0.0)
     return fail("observed_distance is not positive");
+  if (!within(min_observed, 0.0, 1.0))
+    return fail("min_observed is outside [0, 1]");
   if (min_obstacle_points < 1 || min_obstacle_points > 1000)
     return fail("min_obstacle_points is outside [1, 1000]");
   double sum = 0.0;
@@ -126,6 +128,8 @@ void GraspSearch::finish(GraspPlan& plan) const {
       plan.grasps.begin(), plan.grasps.end(), [](const Grasp& a, const Grasp& b) {
         return a.scores.total > b.scores.total;
       });
+  plan.wrench_origin = centre_;
+  plan.wrench_length = radius_;
   if (!options_.wrench_quality)
     return;
   WrenchOptions wrench;
@@ -153,6 +157,10 @@ GraspSearch::explain(const GraspPlan& plan, double narrowest, double widest) con
          << millimetres(miss_.grasp.width) << " on part "
          << miss_.grasp.contacts.front().part << " blocked by "
          << nameOf(miss_.obstruction) << "; use a slimmer gripper or clear the scene.";
+  } else if (r.unseen > 0) {
+    text << "the contacts of all " << r.unseen
+         << " closing lines lie on surface that was not seen; look at the object from "
+         << "another side or lower min_observed (now " << options_.min_observed << ").";
   } else if (r.too_wide > 0) {
     text << "the object is too wide for " << gripper_.name
          << "; nearest miss: opposite "

@@ -74,7 +74,10 @@ std::vector<Grasp> GraspSearch::contactSets(GraspRejections& rejections,
       } else {
         scoreContacts(grasp, slope, robustness);
         scorePose(grasp, 1.0);
-        found.push_back(grasp);
+        if (grasp.scores.observed < options_.min_observed)
+          ++rejections.unseen;
+        else
+          found.push_back(grasp);
       }
     }
   return found;

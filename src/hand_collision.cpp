@@ -85,14 +85,17 @@ Obstruction HandCollision::test(const OrientedBox& box, double margin) const {
 }
 
 double HandCollision::observed(const GraspContact& contact) const {
-  if (seen_.anyNear(contact.position, options_.observed_distance))
-    return 1.0;
-  if (!scene_.has_viewpoint)
-    return scene_.cloud.cols() > 0 ? 0.0 : 1.0;
-  // the outline is known as well as the front; 30 degrees behind it nothing is
-  const Eigen::Vector3d to_viewer = (scene_.viewpoint - contact.position).normalized();
-  const double facing = std::clamp(1.0 + 2.0 * contact.normal.dot(to_viewer), 0.0, 1.0);
-  return scene_.cloud.cols() > 0 ? 0.5 * facing : facing;
+  double facing = 1.0;
+  if (scene_.has_viewpoint) {
+    // the outline is known as well as the front; 30 degrees behind it nothing is:
+    // points close to such a contact lie on another surface, such as a cup's inside
+    const Eigen::Vector3d to_viewer =
+        (scene_.viewpoint - contact.position).normalized();
+    facing = std::clamp(1.0 + 2.0 * contact.normal.dot(to_viewer), 0.0, 1.0);
+  }
+  if (seen_.empty() || seen_.anyNear(contact.position, options_.observed_distance))
+    return facing;
+  return scene_.has_viewpoint ? 0.5 * facing : 0.0; // on the model alone
 }
 
 } // namespace pcl_sq::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levenberg_marquardt.h"
 
+#include "damped_solve.h"
+
 namespace pcl_sq::detail {
 
 namespace {
@@ -9,6 +11,9 @@ constexpr double MIN_DAMPING = 1e-9;
 constexpr double MAX_DAMPING = 1e8;
 constexpr double DAMPING_DOWN = 0.2;
 constexpr double DAMPING_UP = 6.0;
+/** \brief A point's share in what rounding alone changes in a cost: single-precision
+ * residuals of points of size one, squared. Exact points would else keep a fit busy. */
+constexpr double ROUNDING = 1e-14;
 constexpr double TRUST = 0.7; ///< largest step of an angle, a logarithm, an exponent
 
 kernels::Mixture mixture(const LmOptions& o) {
@@ -20,51 +25,17 @@ kernels::Mixture mixture(const LmOptions& o) {
   return m;
 }
 
-/** \brief Solves the damped equations over the free directions by Cholesky.
- * \return false where they are not positive definite */
-bool solve(const Matrix11& jtj,
-           const Vector11& jtr,
-           int n,
-           const bool (&frozen)[11],
-           double damping,
-           Vector11& step) {
-  double largest = 0.0;
-  for (int i = 0; i < n; ++i)
-    largest = std::max(largest, jtj(i, i));
-  if (!(largest > 0.0) || !std::isfinite(largest))
-    return false;
-  Matrix11 l;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double s = frozen[i] || frozen[j] ? 0.0 : jtj(i, j);
-      if (i == j)
-        s = frozen[i] ? 1.0 : s + damping * (s + 1e-9 * largest);
-      for (int k = 0; k < j; ++k)
-        s -= l(i, k) * l(j, k);
-      if (i != j)
-        l(i, j) = s / l(j, j);
-      else if (s > 1e-14 * largest || (frozen[i] && s > 0.0))
-        l(i, i) = std::sqrt(s);
-      else
-        return false;
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    double s = frozen[i] ? 0.0 : -jtr[i];
-    for (int k = 0; k < i; ++k)
-      s -= l(i, k) * step[k];
-    step[i] = s / l(i, i);
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    double s = step[i];
-    for (int k = i + 1; k < n; ++k)
-      s -= l(k, i) * step[k];
-    step[i] = s / l(i, i);
-  }
-  return step.head(n).allFinite();
+NormalEquations evaluate(const UnitPoints& points,
+                         const Superquadric& model,
+                         const LmOptions& options) {
+  NormalEquations e = normalEquations(points, model, options);
+  if (options.contributor)
+    options.contributor(model, e);
+  return e;
 }
 
-/** \brief Whether a free direction leads out of a bound the model already touches. */
+} // namespace
+
 bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions& o) {
   for (int i = 6; i < 11; ++i) {
     const double value = i < 9 ? m.semi_axes[i - 6] : i == 9 ? m.epsilon1 : m.epsilon2;
@@ -76,10 +47,7 @@ bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions&
   return false;
 }
 
-/** \brief Shortens the parts of a step that leave the model's range of trust, each for
- * itself: the spin of a sphere may be anything, which must not hold up its radius.
- * \return whether a part was shortened */
-bool limit(Vector11& step, const Superquadric& m) {
+bool limitStep(Vector11& step, const Superquadric& m) {
   bool limited = false;
   const auto shorten = [&](int begin, int size, double trust) {
     const double largest = step.segment(begin, size).cwiseAbs().maxCoeff();
@@ -94,17 +62,6 @@ bool limit(Vector11& step, const Superquadric& m) {
   shorten(9, 2, TRUST);
   return limited;
 }
-
-NormalEquations evaluate(const UnitPoints& points,
-                         const Superquadric& model,
-                         const LmOptions& options) {
-  NormalEquations e = normalEquations(points, model, options);
-  if (options.contributor)
-    options.contributor(model, e);
-  return e;
-}
-
-} // namespace
 
 ParameterSpace ParameterSpace::without(unsigned fixed) {
   ParameterSpace space;
@@ -178,6 +135,7 @@ LmResult levenbergMarquardt(const UnitPoints& points,
   const auto& basis = o.space.basis;
   const int n = static_cast<int>(basis.cols());
   const bool all = n == 11 && basis.isIdentity(0.0);
+  const double rounding = ROUNDING * double(points.size());
   double damping = o.initial_damping;
   bool fresh = true; // the equations changed since they were last reduced
   Matrix11 jtj;
@@ -197,22 +155,22 @@ LmResult levenbergMarquardt(const UnitPoints& points,
       fresh = false;
     }
     ++r.iterations;
-    const bool solved = solve(jtj, jtr, n, frozen, damping, step);
+    const bool solved = dampedSolve(jtj, jtr, n, frozen, damping, step);
     if (solved) {
       // what the model itself promises; not worth an evaluation once it is nothing
       const double promised = -jtr.head(n).dot(step.head(n));
-      if (damping <= 1.0 && promised <= o.cost_tolerance * r.equations.points_cost) {
+      const double negligible = o.cost_tolerance * r.equations.points_cost + rounding;
+      if (damping <= 1.0 && promised <= negligible) {
         r.termination = Termination::COST_CHANGE_TOO_SMALL;
         break;
       }
       Vector11 full = basis * step.head(n);
-      const bool limited = limit(full, r.model);
+      const bool limited = limitStep(full, r.model);
       const Superquadric candidate = moved(r.model, full, o);
       const NormalEquations e = evaluate(points, candidate, o);
       if (e.cost < r.equations.cost) {
         const double decrease = r.equations.cost - e.cost;
-        const bool small =
-            !limited && decrease <= o.cost_tolerance * r.equations.points_cost;
+        const bool small = !limited && decrease <= negligible;
         r.model = candidate;
         r.equations = e;
         fresh = true;

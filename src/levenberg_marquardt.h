@@ -83,6 +83,16 @@ double evaluateCost(const UnitPoints& points,
 Superquadric
 moved(const Superquadric& model, const Vector11& step, const LmOptions& options);
 
+/** \brief Whether a direction leads out of a bound that the model already touches. */
+bool leadsOut(const Superquadric& model,
+              const Vector11& direction,
+              const LmOptions& options);
+
+/** \brief Shortens the parts of a step that leave the model's range of trust, each for
+ * itself: the spin of a sphere may be anything, which must not hold up its radius.
+ * \return whether a part was shortened */
+bool limitStep(Vector11& step, const Superquadric& model);
+
 /** \brief Minimises sum of the points' costs plus the contributor's. The start must be
  * valid; it is moved into the bounds. */
 LmResult levenbergMarquardt(const UnitPoints& points,

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/model_io.h"
 
+#include "pcl_sq/tapered_superquadric.h"
+
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace pcl_sq {
 
@@ -12,23 +16,34 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* SCHEMA = "pcl_sq/model";
 constexpr int VERSION = 1;
+constexpr int TAPERED_VERSION = 2;
+using Taper = std::array<double, 2>;
+
+bool isTapered(const Taper& taper) {
+  return taper[0] != 0.0 || taper[1] != 0.0;
+}
 
 Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
+Json partToJson(const Superquadric& s,
+                const Taper& taper,
+                const PartStatistics& statistics) {
   Json rotation = Json::array();
   for (int row = 0; row < 3; ++row)
     rotation.push_back(vectorToJson(s.rotation.row(row)));
-  return {{"semi_axes", vectorToJson(s.semi_axes)},
-          {"epsilon", {s.epsilon1, s.epsilon2}},
-          {"translation", vectorToJson(s.center)},
-          {"rotation", rotation},
-          {"points", statistics.points},
-          {"distortion", statistics.distortion},
-          {"rms_distance", statistics.rms_distance},
-          {"termination", statistics.termination}};
+  Json json = {{"semi_axes", vectorToJson(s.semi_axes)},
+               {"epsilon", {s.epsilon1, s.epsilon2}},
+               {"translation", vectorToJson(s.center)},
+               {"rotation", rotation}};
+  if (isTapered(taper))
+    json["taper"] = taper;
+  json["points"] = statistics.points;
+  json["distortion"] = statistics.distortion;
+  json["rms_distance"] = statistics.rms_distance;
+  json["termination"] = statistics.termination;
+  return json;
 }
 
 /** \brief A refusal with its reason; does not leave this file. */
@@ -91,13 +106,34 @@ Superquadric partFromJson(const Json& part, std::size_t index) {
   return s;
 }
 
-void read(const std::string& text, ModelFile& file) {
+Taper taperFromJson(const Json& part, const Superquadric& shape, std::size_t index) {
+  if (!part.contains("taper"))
+    return {};
+  const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
+  std::string why;
+  if (!TaperedSuperquadric{shape, taper[0], taper[1]}.isValid(&why))
+    throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
+  return {taper[0], taper[1]};
+}
+
+/** \brief Whether the file may hold tapered parts. */
+bool versionFromJson(const Json& json, TaperedParts tapered_parts) {
+  const Json& version = member(json, "version");
+  const long long number = version.is_number_integer() ? version.get<long long>() : 0;
+  if (number == TAPERED_VERSION && tapered_parts == TaperedParts::REFUSE)
+    throw Refusal{"it holds a tapered superquadric (version 2 of the schema), which "
+                  "cannot be used here"};
+  if (number != VERSION && number != TAPERED_VERSION)
+    throw Refusal{"version " + version.dump() +
+                  " of the schema is not known, 1 and 2 are"};
+  return number == TAPERED_VERSION;
+}
+
+void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) {
   const Json json = Json::parse(text);
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
-  const Json& version = member(json, "version");
-  if (!version.is_number_integer() || version.get<long long>() != VERSION)
-    throw Refusal{"version " + version.dump() + " of the schema is not known, 1 is"};
+  const bool tapered = versionFromJson(json, tapered_parts);
   if (optionalString(json, "unit") != "m")
     throw Refusal{"the unit must be \"m\""};
   const Json& parts = member(json, "superquadrics");
@@ -105,6 +141,8 @@ void read(const std::string& text, ModelFile& file) {
     throw Refusal{"\"superquadrics\" must be a list"};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     file.model.parts.push_back(partFromJson(parts[i], i));
+    if (tapered)
+      file.tapers.push_back(taperFromJson(parts[i], file.model.parts.back(), i));
     file.statistics.push_back({optionalCount(parts[i], "points"),
                                optionalNumber(parts[i], "distortion"),
                                optionalNumber(parts[i], "rms_distance"),
@@ -152,12 +190,14 @@ std::string toJson(const ModelFile& file, int indent) {
   for (std::size_t i = 0; i < file.model.size(); ++i)
     parts.push_back(
         partToJson(file.model.parts[i],
+                   i < file.tapers.size() ? file.tapers[i] : Taper{},
                    i < file.statistics.size() ? file.statistics[i] : PartStatistics()));
+  const bool tapered = std::any_of(file.tapers.begin(), file.tapers.end(), isTapered);
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
     timings[stage] = ms;
   Json json = {{"schema", SCHEMA},
-               {"version", VERSION},
+               {"version", tapered ? TAPERED_VERSION : VERSION},
                {"unit", "m"},
                {"frame", file.frame},
                {"superquadrics", parts},
@@ -177,10 +217,13 @@ std::string toJson(const ModelFile& file, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-bool fromJson(const std::string& text, ModelFile& file, std::string* why) {
+bool fromJson(const std::string& text,
+              ModelFile& file,
+              std::string* why,
+              TaperedParts tapered_parts) {
   file = {};
   try {
-    read(text, file);
+    read(text, file, tapered_parts);
     return true;
   } catch (const Refusal& refusal) {
     if (why)

@@ -137,16 +137,23 @@ bool observeBare(Observation& o, std::string& why) {
   if (o.view.table)
     out.table = *o.view.table;
   checkTable(out);
-  if (!o.view.viewpoint)
+  std::optional<Eigen::Vector3d> viewpoint = o.view.viewpoint;
+  if (!viewpoint && isCameraFrame(out.points)) {
+    viewpoint = Eigen::Vector3d::Zero();
+    out.notes.push_back("no viewpoint is given; the points lie before the origin "
+                        "and each ray from there meets them once: it is taken as the "
+                        "camera's place");
+  }
+  if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();
-  const double distance = (mean - *o.view.viewpoint).norm();
+  const double distance = (mean - *viewpoint).norm();
   if (!(distance > 0.5 * out.extent)) {
     out.notes.push_back(
         "the viewpoint lies inside the object; its outline is not used");
     return true;
   }
-  out.camera = PinholeCamera::lookingAt(*o.view.viewpoint, mean, 500.0);
+  out.camera = PinholeCamera::lookingAt(*viewpoint, mean, 500.0);
   out.depth = distance;
   std::vector<Eigen::Vector2d> pixels;
   for (Eigen::Index i = 0; i < out.points.cols(); ++i)

@@ -35,4 +35,8 @@ inline double standingHeight(const TableModel& table, double depth) {
 /** \brief Extent and depth from the points. */
 void measure(ObservedObject& observed);
 
+/** \brief Whether points look as if a camera at the origin, looking along z, has seen
+ * them: far enough before it, and hardly any ray meets two layers of them. */
+bool isCameraFrame(const Eigen::Matrix3Xd& points);
+
 } // namespace pcl_sq::detail

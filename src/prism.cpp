@@ -114,18 +114,20 @@ PrismMembership::PrismMembership(const VoxelLayout& layout,
       column_starts_.push_back(static_cast<std::uint32_t>(of_columns_.size()));
     }
   points_.assign(prisms.size(), 0);
-  only_.reserve(layout.counts.size());
-  std::size_t column = 0;
-  for (const std::uint32_t count : layout.counts) {
+  only_.assign(layout.counts.size(), NONE);
+  const std::size_t columns = column_starts_.size() - 1;
+  for (std::size_t column = 0; column < columns; ++column) {
     const std::uint32_t first = column_starts_[column],
                         end = column_starts_[column + 1];
-    if (++column + 1 == column_starts_.size())
-      column = 0;
-    if (count < layout.min_points || first == end) {
-      only_.push_back(NONE);
+    if (first == end)
       continue;
-    }
-    only_.push_back(end - first == 1 ? of_columns_[first] : SEVERAL);
+    const std::uint32_t only = end - first == 1 ? of_columns_[first] : SEVERAL;
+    std::size_t count = 0;
+    for (std::size_t v = column; v < only_.size(); v += columns)
+      if (layout.counts[v] >= layout.min_points) {
+        only_[v] = only;
+        count += layout.counts[v];
+      }
     for (std::uint32_t c = first; c < end; ++c)
       points_[of_columns_[c]] += count;
   }

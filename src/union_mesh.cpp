@@ -45,9 +45,8 @@ private:
   };
 
   Eigen::Vector3d position(std::int64_t id) const {
-    return origin_ + cell_ * Eigen::Vector3d(double(id % n_[0]),
-                                             double(id / n_[0] % n_[1]),
-                                             double(id / (n_[0] * n_[1])));
+    const std::int64_t x = id % n_[0], y = id / n_[0] % n_[1], z = id / (n_[0] * n_[1]);
+    return origin_ + cell_ * Eigen::Vector3d(double(x), double(y), double(z));
   }
 
   std::vector<double> layer(std::int64_t z) const {

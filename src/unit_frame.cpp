@@ -124,24 +124,27 @@ UnitPoints subset(const UnitPoints& points, std::size_t count) {
   if (points.size() <= count)
     return points;
   // every hash below a bound is sure to be a candidate, so that a large cloud is
-  // scanned once and only few are sorted
-  const double share =
-      std::min(1.0, 1.5 * (double(count) + 64.0) / double(points.size()));
-  const auto bound = static_cast<std::uint32_t>(share * 4294967295.0);
+  // scanned once and only few are sorted; where points coincide there may be too few
   std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates;
-  candidates.reserve(static_cast<std::size_t>(1.2 * share * double(points.size())));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f p = points[i];
-    const std::uint32_t h = hash(p[0], p[1], p[2]);
-    if (h <= bound)
-      candidates.emplace_back(h, static_cast<std::uint32_t>(i));
+  for (double share = 1.5 * (double(count) + 64.0) / double(points.size());
+       candidates.size() < count;
+       share *= 16.0) {
+    const auto bound = static_cast<std::uint32_t>(std::min(share, 1.0) * 4294967295.0);
+    candidates.clear();
+    candidates.reserve(
+        static_cast<std::size_t>(1.2 * std::min(share, 1.0) * double(points.size())));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3f p = points[i];
+      const std::uint32_t h = hash(p[0], p[1], p[2]);
+      if (h <= bound)
+        candidates.emplace_back(h, static_cast<std::uint32_t>(i));
+    }
   }
-  const std::size_t size = std::min(count, candidates.size());
   std::nth_element(candidates.begin(),
-                   candidates.begin() + static_cast<std::ptrdiff_t>(size),
+                   candidates.begin() + static_cast<std::ptrdiff_t>(count),
                    candidates.end());
-  chosen.reserve(size);
-  for (std::size_t i = 0; i < size; ++i) {
+  chosen.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f p = points[candidates[i].second];
     chosen.add(p[0], p[1], p[2]);
   }

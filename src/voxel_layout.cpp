@@ -66,18 +66,19 @@ std::size_t VoxelLayout::validCount() const {
 
 CellMask VoxelLayout::validColumns() const {
   CellMask mask(divisions[0], divisions[1]);
-  for (std::size_t v = 0; v < counts.size(); ++v)
-    if (counts[v] >= min_points)
-      mask.cells[v % mask.cells.size()] = 1;
+  const std::size_t columns = mask.cells.size();
+  for (std::size_t layer = 0; layer < counts.size(); layer += columns)
+    for (std::size_t c = 0; c < columns; ++c)
+      mask.cells[c] |= counts[layer + c] >= min_points;
   return mask;
 }
 
 std::vector<std::uint32_t> VoxelLayout::columnCounts() const {
   std::vector<std::uint32_t> columns(static_cast<std::size_t>(divisions[0]) *
                                      static_cast<std::size_t>(divisions[1]));
-  for (std::size_t v = 0; v < counts.size(); ++v)
-    if (counts[v] >= min_points)
-      columns[v % columns.size()] += counts[v];
+  for (std::size_t layer = 0; layer < counts.size(); layer += columns.size())
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      columns[c] += counts[layer + c] >= min_points ? counts[layer + c] : 0;
   return columns;
 }
 

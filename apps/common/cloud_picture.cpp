@@ -2,6 +2,8 @@
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "cloud_picture.h"
 
+#include "pcl_sq/tapered_superquadric.h"
+#include "pcl_sq/visualization/palette.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
 namespace pcl_sq::app {
@@ -17,6 +19,31 @@ void addCloud(SnapshotRenderer& renderer, const LoadedCloud& input) {
       colors.col(i) << p.r, p.g, p.b;
   }
   renderer.addCloud(points, colors);
+}
+
+std::vector<TriangleMesh> meshesOf(const ModelFile& file) {
+  std::vector<TriangleMesh> meshes;
+  for (std::size_t i = 0; i < file.model.size(); ++i) {
+    TaperedSuperquadric s;
+    s.shape = file.model.parts[i];
+    if (i < file.tapers.size()) {
+      s.kx = file.tapers[i][0];
+      s.ky = file.tapers[i][1];
+    }
+    meshes.push_back(meshSuperquadric(s));
+  }
+  return meshes;
+}
+
+void addModel(SnapshotRenderer& renderer, const ModelFile& file) {
+  if (file.tapers.empty()) {
+    renderer.addModel(file.model);
+    return;
+  }
+  constexpr double OPACITY = 0.6; // the points inside are seen
+  const std::vector<TriangleMesh> meshes = meshesOf(file);
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    renderer.addMesh(meshes[i], partColor(i), OPACITY);
 }
 
 } // namespace pcl_sq::app

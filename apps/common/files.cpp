@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -22,7 +22,8 @@ std::string readFile(const std::string& path) {
     throw Failure("'" + path + "' is a folder; give a file.");
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
-    throw Failure("cannot read '" + path + "': " + std::strerror(errno) + ".");
+    throw Failure("cannot read '" + path +
+                  "': " + std::generic_category().message(errno) + ".");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
@@ -50,7 +51,8 @@ void writeTextFile(const std::string& path, const std::string& text) {
     stream << text;
     stream.flush();
     if (!stream)
-      throw Failure("cannot write '" + path + "': " + std::strerror(errno) + ".");
+      throw Failure("cannot write '" + path +
+                    "': " + std::generic_category().message(errno) + ".");
   });
 }
 

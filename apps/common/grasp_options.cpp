@@ -92,6 +92,10 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
                  options.planner.clearance,
                  "Least distance of the hand to table and obstacles [m]")
       ->capture_default_str();
+  cli.add_option("--min-observed",
+                 options.planner.min_observed,
+                 "Least share of the contacts that the camera saw, 0 to 1")
+      ->capture_default_str();
 }
 
 void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {

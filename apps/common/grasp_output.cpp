@@ -81,6 +81,7 @@ Json toJson(const GraspRejections& r) {
   return {{"candidates", r.candidates},
           {"too_wide", r.too_wide},
           {"too_narrow", r.too_narrow},
+          {"unseen", r.unseen},
           {"slipping", r.slipping},
           {"poses", r.poses},
           {"table", r.table},
@@ -215,6 +216,10 @@ std::string graspsToJson(const GraspPlan& plan,
                      scene.table_normal.y(),
                      scene.table_normal.z(),
                      scene.table_offset};
+  const Eigen::Vector3d& origin = plan.wrench_origin;
+  json["wrench"] = {{"origin", {origin.x(), origin.y(), origin.z()}},
+                    {"torque_length", plan.wrench_length},
+                    {"torsional_friction", options.planner.torsional_friction}};
   json["grasps"] = Json::array();
   for (const Grasp& grasp : plan.grasps)
     json["grasps"].push_back(toJson(grasp));

@@ -164,6 +164,8 @@ std::string optionsToJson(const ModelOptions& options) {
                                                     : "mean";
   json["exclusive"] = e.exclusive_points;
   json["remove_plane"] = options.remove_plane;
+  if (options.taper)
+    json["taper"] = true;
   if (!options.roi.empty())
     json["roi"] = options.roi;
   if (!options.box.empty())
@@ -180,8 +182,13 @@ nlohmann::ordered_json boxToJson(const RoiBox& box) {
 std::string reportToJson(const ModelResult& result) {
   const EstimationReport& report = result.report;
   nlohmann::ordered_json json;
+  const auto numbers = [](const Eigen::Vector3d& v) {
+    return nlohmann::ordered_json{v.x(), v.y(), v.z()};
+  };
   if (result.up)
-    json["up"] = {result.up->x(), result.up->y(), result.up->z()};
+    json["up"] = numbers(*result.up);
+  if (result.sensor)
+    json["sensor"] = numbers(*result.sensor);
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),
@@ -214,6 +221,10 @@ std::string reportToJson(const ModelResult& result) {
     }
     json["notes"] = report.view.notes;
   }
+  if (result.taper)
+    json["taper"] = {
+        {"margin", result.taper->margin},
+        {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
   return nlohmann::ordered_json{{"report", json}}.dump();
 }
@@ -331,6 +342,7 @@ void checkModelOptions(const ModelOptions& options) {
   for (std::size_t k = 0; k + 3 < options.box.size(); ++k)
     if (!(options.box[k] < options.box[k + 3]))
       throw UsageError("--box needs each minimum below its maximum");
+  checkTaper(options);
   for (const std::string& path :
        {options.output, options.mesh, options.grasp_points, options.snapshot})
     if (!path.empty())
@@ -369,6 +381,10 @@ ModelResult makeModel(const LoadedCloud& input,
     result.up = selection.table->normal;
   else if (result.report.view.table)
     result.up = result.report.view.table->normal;
+  if (result.report.view.hasCamera())
+    result.sensor = result.report.view.camera.center;
+  else if (input.cloud->isOrganized()) // an image of points
+    result.sensor = input.cloud->sensor_origin_.head<3>().cast<double>();
 
   ModelFile& file = result.file;
   file.model = model;
@@ -385,9 +401,11 @@ ModelResult makeModel(const LoadedCloud& input,
   file.input_points = input.cloud->size();
   file.finite_points = input.finite_points;
   file.options_json = optionsToJson(options);
-  double total = 0.0;
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
+  if (options.taper)
+    timer.run("taper", [&] { return addTaper(input, options, result); });
+  double total = 0.0;
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);

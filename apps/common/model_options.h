@@ -3,6 +3,7 @@
 
 #include "cloud_io.h"
 
+#include "pcl_sq/fit_tapered.h"
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/object_surface_estimation.h"
 #include "pcl_sq/tabletop_segmentation.h"
@@ -27,6 +28,7 @@ struct ModelOptions {
   std::vector<double> viewpoint;  ///< x, y, z [m], or empty
   std::vector<double> table;      ///< nx, ny, nz, d [m], or empty
   TabletopOptions tabletop;
+  bool taper = false; ///< where the points demand one
 
   std::string output; ///< model JSON
   std::string mesh;
@@ -36,6 +38,12 @@ struct ModelOptions {
 
 /** \brief Adds the options to a program. */
 void addModelOptions(CLI::App& cli, ModelOptions& options);
+
+/** \brief --taper, for programs all of whose outputs can respect one. */
+void addTaperOption(CLI::App& cli, ModelOptions& options);
+
+/** \brief Refuses what cannot respect a taper. \throw UsageError */
+void checkTaper(const ModelOptions& options);
 
 /** \brief Options of the best mode: preset, view, number of parts. */
 void addViewOptions(CLI::App& cli, ModelOptions& options);
@@ -51,8 +59,10 @@ void checkModelOptions(const ModelOptions& options);
 struct ModelResult {
   ModelFile file;
   EstimationReport report;
-  pcl::Indices object;               ///< points that were given to the estimation
-  std::optional<Eigen::Vector3d> up; ///< normal of the table, where one is known
+  pcl::Indices object;                   ///< points that were given to the estimation
+  std::optional<Eigen::Vector3d> up;     ///< normal of the table, where one is known
+  std::optional<Eigen::Vector3d> sensor; ///< camera's place, where one is known
+  std::optional<TaperedFit> taper;       ///< with --taper
 };
 
 /** \brief Region, plane removal and estimation. \throw Failure if there is no model */
@@ -60,6 +70,12 @@ ModelResult makeModel(const LoadedCloud& input,
                       const std::string& input_path,
                       const ModelOptions& options,
                       double load_ms);
+
+/** \brief Gives a model of one superquadric its taper, if the points demand one.
+ * \return whether they do \throw Failure if they allow no fit */
+bool addTaper(const LoadedCloud& input,
+              const ModelOptions& options,
+              ModelResult& result);
 
 /** \brief Writes the files that the options name. */
 void writeOutputs(const LoadedCloud& input,

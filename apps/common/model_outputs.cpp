@@ -44,17 +44,11 @@ void writeSnapshot(const std::string& path,
   SnapshotOptions picture;
   if (result.up)
     picture.up = *result.up;
+  picture.sensor = result.sensor;
   SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
-  renderer.addModel(result.file.model);
+  addModel(renderer, result.file);
   renderer.save(path);
-}
-
-void writeMeshFile(const std::string& path, const MultiSuperquadric& model) {
-  std::vector<TriangleMesh> parts;
-  for (const Superquadric& part : model.parts)
-    parts.push_back(meshSuperquadric(part));
-  writeMesh(path, parts);
 }
 #endif
 
@@ -70,7 +64,7 @@ void writeOutputs(const LoadedCloud& input,
         options.grasp_points, input, result.file.model, result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   if (!options.mesh.empty())
-    writeMeshFile(options.mesh, result.file.model);
+    writeMesh(options.mesh, meshesOf(result.file));
   if (!options.snapshot.empty())
     writeSnapshot(options.snapshot, input, result);
 #endif
@@ -88,7 +82,7 @@ void printSummary(const ModelResult& result) {
   for (std::size_t i = 0; i < file.model.size(); ++i) {
     const Superquadric& s = file.model.parts[i];
     const PartStatistics& statistics = file.statistics[i];
-    std::printf("  %4zu  %6zu   %7.1f %7.1f %7.1f   %4.2f  %4.2f  %7.2f\n",
+    std::printf("  %4zu  %6zu   %7.1f %7.1f %7.1f   %4.2f  %4.2f  %7.2f",
                 i + 1,
                 statistics.points,
                 2e3 * s.semi_axes.x(),
@@ -97,7 +91,15 @@ void printSummary(const ModelResult& result) {
                 s.epsilon1,
                 s.epsilon2,
                 1e3 * statistics.rms_distance);
+    if (i < file.tapers.size())
+      std::printf("   taper %.3f %.3f", file.tapers[i][0], file.tapers[i][1]);
+    std::printf("\n");
   }
+  if (result.taper)
+    std::printf("  a taper is %s by the points (margin %.1f, %.0f would do)\n",
+                result.taper->model.isTapered() ? "demanded" : "not demanded",
+                result.taper->margin,
+                TaperedFit::DEMAND);
   std::printf(
       "  distortion (paper's unit) %.3f, rms distance %.2f mm, %zu grasp points\n",
       file.distortion * std::sqrt(1e9),

@@ -91,7 +91,8 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
           options.viewpoint,
           3,
           "X,Y,Z",
-          "Camera's place [m]; else the cloud's own, if it is not the origin");
+          "Camera's place [m]; else the cloud's own; the origin only where its points "
+          "look so");
   numbers("--table",
           options.table,
           4,

@@ -32,7 +32,10 @@ measure(const std::vector<Eigen::Vector3d>& points, int threads, Distance&& dist
   const auto n = static_cast<double>(d.size());
   figures.mean = std::accumulate(d.begin(), d.end(), 0.0) / n;
   figures.rms = std::sqrt(std::inner_product(d.begin(), d.end(), d.begin(), 0.0) / n);
-  figures.max = *std::max_element(d.begin(), d.end());
+  const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+  std::nth_element(d.begin(), middle, d.end());
+  figures.median = *middle;
+  figures.max = *std::max_element(middle, d.end());
   return figures;
 }
 

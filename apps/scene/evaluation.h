@@ -17,9 +17,10 @@ struct ReferenceShape {
   Symmetry symmetry = Symmetry::NONE;
 };
 
-/** \brief Mean, root mean square and maximum of distances [m]. */
+/** \brief Mean, root mean square and maximum of distances [m]; a few stray points
+ * decide the latter two, not the median. */
 struct DistanceFigures {
-  double mean = 0.0, rms = 0.0, max = 0.0;
+  double mean = 0.0, rms = 0.0, median = 0.0, max = 0.0;
 };
 
 /** \brief A model against a known shape; lengths in metres. */

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "panel.h"
 
+#include "image_tiles.h"
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "view_canvas.h"
 
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace pcl_sq::app {
@@ -16,17 +15,6 @@ namespace {
 const cv::Size TILE(480, 520);
 constexpr int CAPTION = 34;
 constexpr double TURN = 0.55, TILT = 0.30; // of the views from the side [rad]
-const cv::Vec3b PALETTE[] = {{60, 110, 235},
-                             {200, 140, 50},
-                             {90, 170, 60},
-                             {170, 80, 170},
-                             {60, 190, 220},
-                             {180, 170, 60}};
-
-cv::Vec3b colorOf(std::size_t part) {
-  return PALETTE[part % (sizeof(PALETTE) / sizeof(PALETTE[0]))];
-}
-
 struct Dots {
   std::vector<Eigen::Vector3d> points;
   std::vector<cv::Vec3b> colors;
@@ -57,52 +45,22 @@ RoiBox grown(RoiBox box, double share) {
   return box;
 }
 
-/** \brief Window of the image around the query with the tile's proportions. */
-cv::Rect windowAround(const PixelRect& rect, const cv::Mat& image) {
-  const double height =
-      std::max(1.35 * rect.height, 1.35 * rect.width * TILE.height / TILE.width);
-  cv::Rect r(0,
-             0,
-             std::min(image.cols, static_cast<int>(height * TILE.width / TILE.height)),
-             std::min(image.rows, static_cast<int>(height)));
-  r.x = std::clamp(rect.x + rect.width / 2 - r.width / 2, 0, image.cols - r.width);
-  r.y = std::clamp(rect.y + rect.height / 2 - r.height / 2, 0, image.rows - r.height);
-  return r;
-}
-
-cv::Mat imageTile(const PanelInput& in) {
-  cv::Mat shown = in.image.clone();
-  const cv::Rect box(in.rect.x, in.rect.y, in.rect.width, in.rect.height);
-  if (!in.mask.empty()) {
-    cv::Mat dimmed;
-    in.image.convertTo(dimmed, -1, 0.35, 90);
-    dimmed.copyTo(shown, in.mask == 0);
-    std::vector<std::vector<cv::Point>> contours;
-    cv::findContours(in.mask, contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-    cv::drawContours(shown, contours, -1, {40, 40, 230}, 1, cv::LINE_AA);
-  }
-  cv::rectangle(shown, box, {40, 200, 240}, 1);
-  const cv::Mat part = shown(windowAround(in.rect, shown));
-  const double s = std::min(static_cast<double>(TILE.width) / part.cols,
-                            static_cast<double>(TILE.height) / part.rows);
-  cv::Mat scaled, tile(TILE, CV_8UC3, cv::Scalar(248, 246, 244));
-  cv::resize(part, scaled, {}, s, s, s < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
-  scaled.copyTo(tile(cv::Rect((TILE.width - scaled.cols) / 2,
-                              (TILE.height - scaled.rows) / 2,
-                              scaled.cols,
-                              scaled.rows)));
-  return tile;
-}
-
+/** \brief The cloud in its box, the histogram that gave the box's depth above it. */
 cv::Mat queryTile(const PanelInput& in) {
+  const cv::Size plot(TILE.width, 140);
   const RoiBox around = grown(in.region, 0.25);
-  ViewCanvas canvas(TILE, around, TURN, TILT);
+  ViewCanvas canvas(
+      cv::Size(TILE.width, TILE.height - plot.height), around, TURN, TILT);
   const Dots scene = dotsOf(*in.cloud, around, 0.55);
   const Dots object = dotsOf(*in.object, around, 0.0);
   canvas.addPoints(scene.points, scene.colors, 3);
   canvas.addPoints(object.points, object.colors, 3);
   canvas.addWireBox(in.region, {40, 40, 220}, 2);
-  return canvas.picture().clone();
+  cv::Mat tile;
+  cv::vconcat(plotDepthHistogram(in.histogram, in.disparity_scale, plot),
+              canvas.picture(),
+              tile);
+  return tile;
 }
 
 /** \brief Voxels from back to front, so that the nearer ones are on top. */
@@ -131,22 +89,22 @@ cv::Mat prismTile(const PanelInput& in) {
   const Dots object = dotsOf(*in.object, in.region, 0.15);
   canvas.addPoints(object.points, object.colors, 3);
   for (std::size_t i = 0; i < in.report.prisms.size(); ++i) {
-    canvas.addMesh(meshBox(in.report.prisms[i].box), colorOf(i), 0.45);
-    canvas.addWireBox(in.report.prisms[i].box, colorOf(i), 2);
+    canvas.addSolidBox(in.report.prisms[i].box, partTint(i), 0.45);
+    canvas.addWireBox(in.report.prisms[i].box, partTint(i), 2);
   }
   return canvas.picture().clone();
 }
 
 /** \brief The points in the colours of their parts. */
-cv::Mat partTile(const PanelInput& in, double turn) {
-  ViewCanvas canvas(TILE, grown(in.region, 0.05), turn, turn > 0.0 ? TILT : 0.0);
+cv::Mat partTile(const PanelInput& in) {
+  ViewCanvas canvas(TILE, grown(in.region, 0.05), TURN, TILT);
   Dots dots;
   for (const auto& p : *in.object) {
     const Eigen::Vector3d v = p.getVector3fMap().cast<double>();
     if (!v.allFinite())
       continue;
     dots.points.push_back(v);
-    const cv::Vec3b part = colorOf(in.model.nearestPart(v));
+    const cv::Vec3b part = partTint(in.model.nearestPart(v));
     // half the colour of the part, half that of the image
     dots.colors.emplace_back(
         (part[0] * 2 + p.b) / 3, (part[1] * 2 + p.g) / 3, (part[2] * 2 + p.r) / 3);
@@ -155,16 +113,16 @@ cv::Mat partTile(const PanelInput& in, double turn) {
   return canvas.picture().clone();
 }
 
-cv::Mat modelTile(const PanelInput& in, double turn, double tilt) {
+/** \brief The model from the side; what the camera could not see is lighter. */
+cv::Mat modelTile(const PanelInput& in) {
   const Eigen::AlignedBox3d box = in.model.boundingBox();
   RoiBox focus;
   focus.min = box.min();
   focus.max = box.max();
-  ViewCanvas canvas(TILE, grown(focus, 0.05), turn, tilt);
+  ViewCanvas canvas(TILE, grown(focus, 0.05), TURN, TILT);
   const Dots object = dotsOf(*in.object, grown(focus, 0.3), 0.0);
   canvas.addPoints(object.points, object.colors, 2);
-  for (std::size_t i = 0; i < in.model.size(); ++i)
-    canvas.addMesh(meshSuperquadric(in.model.parts[i]), colorOf(i), 0.6);
+  canvas.addModel(in.model, Eigen::Vector3d::Zero(), 0.6);
   return canvas.picture().clone();
 }
 
@@ -189,26 +147,22 @@ cv::Mat drawPanel(const PanelInput& in) {
                 3 * (TILE.width + 8) + 8,
                 CV_8UC3,
                 cv::Scalar::all(255));
-  place(panel, 0, 0, imageTile(in), "(a) segmented object");
-  cv::Mat query = queryTile(in);
-  const cv::Size inset(230, 140);
-  const cv::Mat plot = plotDepthHistogram(in.histogram, in.disparity_scale, inset);
-  plot.copyTo(query(cv::Rect(TILE.width - inset.width, 0, inset.width, inset.height)));
-  place(panel, 1, 0, query, "(b) query region and aperture");
-  // the best mode divides by its own rule: its parts' points stand for voxels, prisms
+  place(panel, 0, 0, segmentTile(in, TILE), "(a) segmented object");
+  place(panel, 1, 0, queryTile(in), "(b) aperture and query region");
+  // the best mode has outline and parts where the paper has voxels and prisms
   const bool paper = !in.report.voxels.empty();
   place(panel,
         2,
         0,
-        paper ? voxelTile(in) : partTile(in, 0.0),
-        paper ? "(c) voxels" : "(c) parts of the cloud");
+        paper ? voxelTile(in) : outlineTile(in, TILE),
+        paper ? "(c) voxels" : "(c) outline and its tangents");
   place(panel,
         0,
         1,
-        paper ? prismTile(in) : partTile(in, TURN),
-        paper ? "(d) prisms" : "(d) parts, from the side");
-  place(panel, 1, 1, modelTile(in, 0.0, 0.0), "(e) superquadrics, from the camera");
-  place(panel, 2, 1, modelTile(in, TURN, TILT), "(e) superquadrics, from the side");
+        paper ? prismTile(in) : partTile(in),
+        paper ? "(d) prisms" : "(d) parts of the cloud");
+  place(panel, 1, 1, predictionTile(in, TILE), "(e) the model's outline in the image");
+  place(panel, 2, 1, modelTile(in), "(f) superquadrics; lighter: the unseen side");
   return panel;
 }
 

@@ -16,6 +16,7 @@ struct PanelInput {
   PixelRect rect; ///< 2D query
   DepthHistogram histogram;
   double disparity_scale = 0.0; ///< focal length times baseline [px m]
+  PinholeCamera camera;         ///< of the image
   RoiBox region;                ///< 3D query
   pcl::PointCloud<pcl::PointXYZRGBA>::ConstPtr cloud;  ///< the whole scene
   pcl::PointCloud<pcl::PointXYZRGBA>::ConstPtr object; ///< NaN outside of the object
@@ -24,7 +25,8 @@ struct PanelInput {
 };
 
 /** \brief The paper's Fig. 5 as one picture, BGR: segmented image, query with the
- * histogram's aperture, voxels, prisms, superquadrics over the cloud. */
+ * histogram's aperture, voxels, prisms (in the best mode: outline and parts), the
+ * model's outline over the image, superquadrics over the cloud. */
 cv::Mat drawPanel(const PanelInput& input);
 
 } // namespace pcl_sq::app

@@ -43,10 +43,12 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
   Segment segment;
   if (!o.mask.empty()) {
     cv::Mat mask = loadImage(o.mask, cv::IMREAD_GRAYSCALE);
-    if (mask.size() != s.left.size())
-      throw Failure(
-          "the mask and the image differ in size; give a mask of the rectified "
-          "left image.");
+    if (mask.cols != static_cast<int>(s.cloud->width) ||
+        mask.rows != static_cast<int>(s.cloud->height))
+      throw Failure("the mask and the image differ in size; give a mask of " +
+                    std::to_string(s.cloud->width) + " x " +
+                    std::to_string(s.cloud->height) +
+                    " px, of the rectified left image.");
     segment.mask = mask > 127;
     segment.rect = boundingRect(segment.mask);
     if (segment.rect.empty())
@@ -59,11 +61,12 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
   segmenter.setOptions(options);
   bool found = false;
   if (!o.click.empty())
-    found = segmenter.segmentClick(s.left, o.click[0], o.click[1], segment);
+    found = segmenter.segmentClick(s.left, o.click[0], o.click[1], *s.cloud, segment);
   else if (!o.color.empty())
     found = segmenter.segmentColor(s.left, o.color[0], o.color[1], o.color[2], segment);
   else if (!roi.empty())
-    found = segmenter.segmentBox(s.left, {roi[0], roi[1], roi[2], roi[3]}, segment);
+    found = segmenter.segmentBox(
+        s.left, {roi[0], roi[1], roi[2], roi[3]}, *s.cloud, segment);
   else if (!s.disparity.empty() && o.stereo.matcher == StereoMatcher::BM) {
     // block matching loses most of a slanted table, so the table is looked for in the
     // denser semi-global disparities
@@ -88,9 +91,7 @@ void filterBorder(const FrontOptions& o, FrontResult& r) {
   pcl::IndicesPtr indices(new pcl::Indices(r.object));
   filter.setIndices(indices);
   filter.setMask(r.segment.mask);
-  filter.setBlockSize(o.stereo.block_size != 0                ? o.stereo.block_size
-                      : o.stereo.matcher == StereoMatcher::BM ? 15
-                                                              : 5);
+  filter.setBlockSize(o.stereo.blockSizeFor(static_cast<int>(r.stereo.cloud->width)));
   filter.filter(r.object);
 }
 
@@ -162,7 +163,7 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
          o.segment,
          "How the object's outline is found; none: only the box of --roi counts")
       ->type_name("none|color|grabcut")
-      ->default_str("grabcut, with the paper's preset and --roi none")
+      ->default_str("grabcut")
       ->check(CLI::IsMember({"none", "color", "grabcut"}));
   auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
                     ->expected(2)
@@ -171,6 +172,7 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
       ->expected(3)
       ->delimiter(',')
+      ->check(CLI::Range(0, 255))
       ->type_name("R,G,B")
       ->excludes(click);
   cli.add_flag("--border-filter",
@@ -231,9 +233,14 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   else {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
     r.rect = r.segment.rect;
+    if (!r.segment.outlined) // a box has no outline that the object could touch
+      r.segment.mask.release();
   }
   timer.run("roi", [&] {
     findRegion(r);
+    if (o.border_filter && r.segment.mask.empty())
+      throw Failure("colours do not tell the object from its surroundings, so there is "
+                    "no outline to filter along; leave out --border-filter.");
     if (o.border_filter)
       filterBorder(o, r);
     return true;

@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view_canvas.h"
 
+#include "pcl_sq/oriented_box.h"
+#include "pcl_sq/visibility.h"
+
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace pcl_sq::app {
 namespace {
 
 constexpr float FAR = std::numeric_limits<float>::infinity();
+const cv::Vec3b PAPER(248, 246, 244);
+const cv::Vec3b TINTS[] = {{60, 110, 235},
+                           {200, 140, 50},
+                           {90, 170, 60},
+                           {170, 80, 170},
+                           {60, 190, 220},
+                           {180, 170, 60}};
+
+/** \brief \a a at 0, \a b at 1. */
+cv::Vec3b mixed(const cv::Vec3b& a, const cv::Vec3b& b, double share) {
+  cv::Vec3b result;
+  for (int k = 0; k < 3; ++k)
+    result[k] = cv::saturate_cast<std::uint8_t>((1.0 - share) * a[k] + share * b[k]);
+  return result;
+}
 
 Eigen::Vector3d cornerOf(const RoiBox& box, int i) {
   return {i & 1 ? box.max.x() : box.min.x(),
@@ -21,52 +40,39 @@ Eigen::Vector3d cornerOf(const RoiBox& box, int i) {
 
 } // namespace
 
-TriangleMesh meshBox(const RoiBox& box) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(cornerOf(box, i));
-  mesh.triangles = {{0, 2, 1},
-                    {1, 2, 3},
-                    {4, 5, 6},
-                    {5, 7, 6},
-                    {0, 1, 4},
-                    {1, 5, 4},
-                    {2, 6, 3},
-                    {3, 6, 7},
-                    {0, 4, 2},
-                    {2, 4, 6},
-                    {1, 3, 5},
-                    {3, 7, 5}};
-  return mesh;
+cv::Vec3b partTint(std::size_t part) {
+  return TINTS[part % std::size(TINTS)];
 }
 
 ViewCanvas::ViewCanvas(const cv::Size& size,
                        const RoiBox& focus,
                        double turn,
                        double tilt)
-    : picture_(size, CV_8UC3, cv::Scalar(248, 246, 244)), depth_(size, CV_32F, FAR),
-      center_(focus.center()) {
-  rotation_ = (Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()) *
-               Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()))
-                  .toRotationMatrix();
-  const double diagonal = focus.sizes().norm();
-  distance_ = 3.5 * diagonal;
+    : picture_(size, CV_8UC3, cv::Scalar(PAPER)), depth_(size, CV_32F, FAR) {
+  const Eigen::Matrix3d to_camera = (Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()) *
+                                     Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()))
+                                        .toRotationMatrix();
+  camera_.rotation = to_camera.transpose();
+  const double distance = 3.5 * focus.sizes().norm();
+  camera_.center = focus.center() - distance * camera_.rotation.col(2);
   // the turned box, with a little air, fills the picture
   double right = 1e-6, up = 1e-6;
   for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d p = rotation_ * (cornerOf(focus, i) - center_);
-    right = std::max(right, std::abs(p.x()) / (p.z() + distance_));
-    up = std::max(up, std::abs(p.y()) / (p.z() + distance_));
+    const Eigen::Vector3d p = to_camera * (cornerOf(focus, i) - focus.center());
+    right = std::max(right, std::abs(p.x()) / (p.z() + distance));
+    up = std::max(up, std::abs(p.y()) / (p.z() + distance));
   }
-  scale_ = 0.44 * std::min(size.width / right, size.height / up);
+  camera_.fx = camera_.fy = 0.44 * std::min(size.width / right, size.height / up);
+  camera_.cx = 0.5 * size.width;
+  camera_.cy = 0.5 * size.height;
 }
 
+ViewCanvas::ViewCanvas(const cv::Mat& image, const PinholeCamera& camera)
+    : picture_(image.clone()), depth_(image.size(), CV_32F, FAR), camera_(camera) {}
+
 Eigen::Vector3d ViewCanvas::project(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d p = rotation_ * (point - center_);
-  const double z = p.z() + distance_;
-  return {scale_ * p.x() / z + 0.5 * picture_.cols,
-          scale_ * p.y() / z + 0.5 * picture_.rows,
-          z};
+  const Eigen::Vector2d pixel = camera_.project(point);
+  return {pixel.x(), pixel.y(), camera_.depthOf(point)};
 }
 
 void ViewCanvas::addPoints(const std::vector<Eigen::Vector3d>& points,
@@ -135,31 +141,89 @@ void ViewCanvas::blend(const cv::Mat& layer, const cv::Mat& depth, double opacit
     }
 }
 
-void ViewCanvas::addMesh(const TriangleMesh& mesh,
-                         const cv::Vec3b& color,
-                         double opacity) {
+template <typename ColorOf>
+void ViewCanvas::drawMesh(const TriangleMesh& mesh,
+                          const ColorOf& color_of,
+                          double opacity) {
   cv::Mat layer(picture_.size(), CV_8UC3), depth(picture_.size(), CV_32F, FAR);
   const Eigen::Vector3d light = Eigen::Vector3d(-0.4, -0.7, -0.6).normalized();
   for (const auto& t : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
     const Eigen::Vector3d normal =
-        rotation_ *
+        camera_.rotation.transpose() *
         (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();
     const double shade = 0.45 + 0.55 * std::max(0.0, normal.dot(light));
-    cv::Vec3b shaded;
-    for (int k = 0; k < 3; ++k)
-      shaded[k] = cv::saturate_cast<std::uint8_t>(shade * color[k]);
     const Eigen::Vector3d corners[] = {
         project(a), project(mesh.vertices[t[1]]), project(mesh.vertices[t[2]])};
-    fillTriangle(corners, shaded, layer, depth);
+    if (std::min({corners[0].z(), corners[1].z(), corners[2].z()}) <= 0.0)
+      continue; // behind the camera
+    fillTriangle(corners, mixed({0, 0, 0}, color_of(t), shade), layer, depth);
   }
   blend(layer, depth, opacity);
+}
+
+void ViewCanvas::addMesh(const TriangleMesh& mesh,
+                         const cv::Vec3b& color,
+                         double opacity) {
+  drawMesh(
+      mesh, [&](const std::array<std::uint32_t, 3>&) { return color; }, opacity);
+}
+
+void ViewCanvas::addModel(const MultiSuperquadric& model,
+                          const Eigen::Vector3d& eye,
+                          double opacity) {
+  for (std::size_t k = 0; k < model.size(); ++k) {
+    const TriangleMesh mesh = meshSuperquadric(model.parts[k]);
+    const double slack = 1e-2 * model.parts[k].semi_axes.minCoeff();
+    std::vector<int> hidden;
+    for (const Eigen::Vector3d& v : mesh.vertices)
+      hidden.push_back(isHidden(model, v, eye, slack) ? 1 : 0);
+    const cv::Vec3b color = partTint(k), pale = mixed(color, PAPER, 0.62);
+    drawMesh(
+        mesh,
+        [&](const std::array<std::uint32_t, 3>& t) {
+          return mixed(color, pale, (hidden[t[0]] + hidden[t[1]] + hidden[t[2]]) / 3.0);
+        },
+        opacity);
+  }
+}
+
+void ViewCanvas::addOutlines(const MultiSuperquadric& model) {
+  for (std::size_t k = 0; k < model.size(); ++k) {
+    const TriangleMesh mesh = meshSuperquadric(model.parts[k], 48);
+    std::vector<cv::Point2f> pixels;
+    for (const Eigen::Vector3d& v : mesh.vertices)
+      if (const Eigen::Vector3d p = project(v); p.z() > 0.0)
+        pixels.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+    if (pixels.size() < mesh.vertices.size())
+      continue; // reaches behind the camera
+    // the outline of a convex body is the hull of its points
+    std::vector<int> hull;
+    cv::convexHull(pixels, hull);
+    const double slack = 0.1 * model.parts[k].semi_axes.minCoeff();
+    const cv::Vec3b color = mixed(partTint(k), {0, 0, 0}, 0.15);
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const auto a = static_cast<std::size_t>(hull[i]);
+      const auto b = static_cast<std::size_t>(hull[(i + 1) % hull.size()]);
+      const bool hidden = isHidden(model, mesh.vertices[a], camera_.center, slack) ||
+                          isHidden(model, mesh.vertices[b], camera_.center, slack);
+      cv::line(picture_,
+               pixels[a],
+               pixels[b],
+               hidden ? mixed(color, PAPER, 0.55) : color,
+               hidden ? 1 : 2,
+               cv::LINE_AA);
+    }
+  }
 }
 
 void ViewCanvas::addSolidBox(const RoiBox& box,
                              const cv::Vec3b& color,
                              double opacity) {
-  addMesh(meshBox(box), color, opacity);
+  addMesh(meshBox(OrientedBox{
+              box.center(), Eigen::Matrix3d::Identity(), 0.5 * box.sizes()}),
+          color,
+          opacity);
   addWireBox(box, color * 0.8, 1);
 }
 

@@ -9,6 +9,7 @@ data are generated once into OUT. Prints the table of reference.md with our colu
 the peers', for each seed, and draws accuracy against time (needs matplotlib).
 """
 import argparse
+import importlib.util
 import json
 import os
 import re
@@ -98,6 +99,8 @@ def main():
     parser.add_argument("--sets", nargs="+", default=SETS)
     parser.add_argument("--figure")
     arguments = parser.parse_args()
+    if arguments.figure and importlib.util.find_spec("matplotlib") is None:
+        parser.error("--figure needs matplotlib (Debian: python3-matplotlib)")
     sys.path.insert(0, arguments.generators)
     import score
     peers = reference(arguments.generators)

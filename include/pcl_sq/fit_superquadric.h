@@ -83,7 +83,10 @@ fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
 PCL_SQ_EXPORTS FitSummary fitSuperquadric(
     const Eigen::Ref<const Eigen::Matrix3Xd>& points, const FitOptions& options = {});
 
-/** \brief The full fit from a start, without a search for others. */
+/** \brief The full fit from a start, without a search for others.
+ *
+ * A start a million times farther away than the points are wide is refused
+ * (Termination::INVALID_OPTIONS). */
 PCL_SQ_EXPORTS FitSummary
 fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                 const Superquadric& initial,

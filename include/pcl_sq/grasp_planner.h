@@ -35,8 +35,11 @@ struct PCL_SQ_EXPORTS GraspPlannerOptions {
   double min_angle = 0.35;          ///< between their directions [rad]
   double cloud_tolerance = 0.010;   ///< points nearer to the model belong to it [m]
   double observed_distance = 0.006; ///< of a point that makes a contact observed [m]
-  int min_obstacle_points = 3;      ///< in a cube of 5 mm, fewer are noise, [1, 1000]
-  bool wrench_quality = false;      ///< compute Grasp::epsilon and volume (slow)
+  /** \brief Grasps with a smaller GraspScores::observed are not given, [0, 1]: where
+   * hardly anything was seen of both contacts, the model is a guess. */
+  double min_observed = 0.3;
+  int min_obstacle_points = 3;       ///< in a cube of 5 mm, fewer are noise, [1, 1000]
+  bool wrench_quality = false;       ///< compute Grasp::epsilon and volume (slow)
   double torsional_friction = 0.005; ///< torque over normal force of a pad [m], >= 0
   GraspWeights weights;
 
@@ -64,6 +67,7 @@ struct GraspRejections {
   std::size_t too_wide = 0;   ///< wider than the gripper opens
   std::size_t too_narrow = 0; ///< thinner than the gripper closes
   std::size_t slipping = 0;   ///< a normal outside of the friction cone
+  std::size_t unseen = 0;     ///< contacts on surface that hardly was observed
   std::size_t poses = 0;      ///< hand poses tested for collision
   std::size_t table = 0;      ///< poses in collision with the table
   std::size_t object = 0;     ///< poses in collision with the object itself
@@ -75,6 +79,10 @@ struct GraspRejections {
 struct GraspPlan {
   std::vector<Grasp> grasps; ///< best first
   GraspRejections rejections;
+  /** \brief What Grasp::epsilon and volume refer to: torques about the centre of
+   * gravity over the radius of a ball about it that holds the object [m]. */
+  Eigen::Vector3d wrench_origin = Eigen::Vector3d::Zero();
+  double wrench_length = 0.0;
   /** \brief Empty, or why there is no grasp and what came nearest to one. */
   std::string failure;
   [[nodiscard]] bool ok() const { return !grasps.empty(); }

@@ -41,17 +41,19 @@ struct VoxelLocator {
 
   /** \brief As VoxelLayout::indexOf(). */
   std::int32_t operator()(double x, double y, double z) const {
-    const int i = cellAlong(0, x), j = cellAlong(1, y), k = cellAlong(2, z);
-    return (i | j | k) < 0 ? -1 : i + divisions[0] * (j + divisions[1] * k);
+    // one branch for all six sides; negated, so that NaN counts as outside
+    const bool inside = (x >= min[0]) & (x <= max[0]) & (y >= min[1]) & (y <= max[1]) &
+                        (z >= min[2]) & (z <= max[2]);
+    if (!inside)
+      return -1;
+    return cellAlong(0, x) +
+           divisions[0] * (cellAlong(1, y) + divisions[1] * cellAlong(2, z));
   }
 
-  /** \brief Cell along one axis; -1 outside. */
+private:
   int cellAlong(int axis, double value) const {
-    // negated, so that NaN counts as outside
-    if (!(value >= min[axis] && value <= max[axis]))
-      return -1;
     const int cell = static_cast<int>((value - min[axis]) * cells_per_meter[axis]);
-    return cell < divisions[axis] ? cell : divisions[axis] - 1;
+    return std::min(cell, divisions[axis] - 1);
   }
 };
 

@@ -59,11 +59,10 @@ struct Norm {
 inline Float logOnePlus(Float u) {
   const Float s = u * inverse(2.0F + u);
   const Float s2 = s * s;
-  Float p = 0.197F * s2 + 2.0F / 9.0F;
-  p = p * s2 + 2.0F / 7.0F;
-  p = p * s2 + 2.0F / 5.0F;
-  p = p * s2 + 2.0F / 3.0F;
-  p = p * s2 + 2.0F;
+  const Float s4 = s2 * s2;
+  const Float p =
+      ((0.197F * s2 + 2.0F / 9.0F) * s4 + (2.0F / 7.0F * s2 + 2.0F / 5.0F)) * s4 +
+      (2.0F / 3.0F * s2 + 2.0F);
   return s * p;
 }
 
@@ -130,6 +129,7 @@ struct Row {
 
 template <Residual KIND>
 inline Row row(const Lanes& l, const Vector& y) {
+  static_assert(KIND != Residual::FOOT_POINT, "has two stages");
   Row r;
   r.gauge = gauge(l, y);
   r.at = y;
@@ -150,39 +150,89 @@ inline Row row(const Lanes& l, const Vector& y) {
     r.residual = value - 1.0F;
     r.factor = power * value;
     r.spatial = {r.factor * g.x, r.factor * g.y, r.factor * g.z};
-  } else if (KIND == Residual::FIRST_ORDER) {
+  } else {
     r.factor = inverse(max(length(g), all(1e-18F)));
     r.residual = (1.0F - exp(-r.gauge.value)) * r.factor;
     r.spatial = {r.factor * g.x, r.factor * g.y, r.factor * g.z};
-  } else {
-    // tangent plane at the radial projection, foot of the perpendicular, and back onto
-    // the surface along the radius
-    const Float inverse_gauge = exp(-r.gauge.value);
-    const Float outside = 1.0F - inverse_gauge;
-    const Float inverse_square = inverse(max(dot(g, g), all(1e-30F)));
-    // (y - y/G).n = outside * y.g / |g| and y.g = 1 (homogeneity)
-    const Float step = outside * inverse_square;
-    const Vector foot = {y.x - step * g.x, y.y - step * g.y, y.z - step * g.z};
-    r.gauge = gauge(l, foot);
-    const Float scale = exp(-r.gauge.value);
-    r.at = {foot.x * scale, foot.y * scale, foot.z * scale};
-    const Vector& f =
-        r.gauge.gradient; // degree -1: at the surface it is gradient / scale
-    const Float radial = length(y) * abs(outside);
-    const Vector off = {y.x - r.at.x, y.y - r.at.y, y.z - r.at.z};
-    const Float distance = min(length(off), radial);
-    r.residual = withSign(distance, outside);
-    const Float inverse_f = inverse(max(length(f), all(1e-18F)));
-    r.factor = scale * inverse_f;
-    r.spatial = {f.x * inverse_f, f.y * inverse_f, f.z * inverse_f};
   }
   return r;
+}
+
+/** \brief Tangent plane at the radial projection, and the foot of the perpendicular. */
+struct Foot {
+  Vector at;
+  Float outside; ///< 1 - 1/G
+};
+
+inline Foot footOnPlane(const Lanes& l, const Vector& y) {
+  const Gauge gauge_y = gauge(l, y);
+  const Vector& g = gauge_y.gradient;
+  const Float outside = 1.0F - exp(-gauge_y.value);
+  // (y - y/G).n = outside * y.g / |g| and y.g = 1 (homogeneity)
+  const Float step = outside * inverse(max(dot(g, g), all(1e-30F)));
+  return {{y.x - step * g.x, y.y - step * g.y, y.z - step * g.z}, outside};
+}
+
+/** \brief From the plane back onto the surface along the radius. */
+inline Row footRow(const Lanes& l, const Vector& y, const Foot& foot) {
+  Row r;
+  r.gauge = gauge(l, foot.at);
+  const Float scale = exp(-r.gauge.value);
+  r.at = {foot.at.x * scale, foot.at.y * scale, foot.at.z * scale};
+  const Vector& f = r.gauge.gradient; // degree -1: at the surface gradient / scale
+  const Float radial = length(y) * abs(foot.outside);
+  const Vector off = {y.x - r.at.x, y.y - r.at.y, y.z - r.at.z};
+  r.residual = withSign(min(length(off), radial), foot.outside);
+  const Float inverse_f = inverse(max(length(f), all(1e-18F)));
+  r.factor = scale * inverse_f;
+  r.spatial = {f.x * inverse_f, f.y * inverse_f, f.z * inverse_f};
+  return r;
+}
+
+/** \brief Feet of a block of points. The loop of its own is short enough for the
+ * processor to work on several vectors at once: the chains of operations are long. */
+inline void footBlock(const Lanes& l,
+                      const Points& points,
+                      std::size_t begin,
+                      float (&feet)[4][BLOCK]) {
+  const std::size_t rest = points.count - begin;
+  const std::size_t size = rest < BLOCK ? rest : BLOCK;
+  for (std::size_t p = 0; p < size; p += LANES) {
+    const Foot foot = footOnPlane(l, local(l, points, begin + p));
+    store(feet[0] + p, foot.at.x);
+    store(feet[1] + p, foot.at.y);
+    store(feet[2] + p, foot.at.z);
+    store(feet[3] + p, foot.outside);
+  }
+}
+
+inline Foot loadFoot(const float (&feet)[4][BLOCK], std::size_t p) {
+  return {{load(feet[0] + p), load(feet[1] + p), load(feet[2] + p)}, load(feet[3] + p)};
 }
 
 /** \brief The residual alone, in as few operations as the kind allows. */
 template <Residual KIND>
 inline Float residual(const Lanes& l, const Vector& y) {
-  return row<KIND>(l, y).residual;
+  if constexpr (KIND == Residual::FOOT_POINT)
+    return footRow(l, y, footOnPlane(l, y)).residual;
+  else
+    return row<KIND>(l, y).residual;
+}
+
+/** \brief The Jacobian's columns of one vector of points, see PARAMETERS. */
+inline void storeDerivatives(const Row& r, float (&rows)[ROWS][BLOCK], std::size_t p) {
+  const Vector& g = r.spatial;
+  store(rows[0] + p, -g.x);
+  store(rows[1] + p, -g.y);
+  store(rows[2] + p, -g.z);
+  store(rows[3] + p, g.y * r.at.z - g.z * r.at.y);
+  store(rows[4] + p, g.z * r.at.x - g.x * r.at.z);
+  store(rows[5] + p, g.x * r.at.y - g.y * r.at.x);
+  store(rows[6] + p, -r.factor * r.gauge.a1);
+  store(rows[7] + p, -r.factor * r.gauge.a2);
+  store(rows[8] + p, -r.factor * r.gauge.a3);
+  store(rows[9] + p, r.factor * r.gauge.e1);
+  store(rows[10] + p, r.factor * r.gauge.e2);
 }
 
 /** \brief Share and cost of a squared residual in the mixture. */
@@ -247,6 +297,7 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
   constexpr std::size_t FLUSH = 16; // blocks whose sums stay in single precision
   alignas(64) float rows[ROWS][BLOCK];
   alignas(64) float lanes[9 * TILES][LANES] = {};
+  alignas(64) float feet[4][BLOCK];
   const Lanes l = spread(shape);
   const Float s = all(m.inverse_two_sigma_squared), c = all(m.outlier);
   const Float inverse_s = all(1.0F / m.inverse_two_sigma_squared);
@@ -257,34 +308,34 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
   for (std::size_t begin = 0; begin < points.count; begin += BLOCK) {
     const std::size_t rest = points.count - begin;
     const std::size_t size = rest < BLOCK ? rest : BLOCK;
-    const Float valid_count = all(static_cast<float>(size));
-    Float cost{}, share{};
+    if constexpr (KIND == Residual::FOOT_POINT)
+      footBlock(l, points, begin, feet);
     std::size_t p = 0;
     for (; p < size; p += LANES) {
+      const Vector y = local(l, points, begin + p);
+      Row r;
+      if constexpr (KIND == Residual::FOOT_POINT)
+        r = footRow(l, y, loadFoot(feet, p));
+      else
+        r = row<KIND>(l, y);
+      store(rows[11] + p, r.residual);
+      if (DERIVATIVES)
+        storeDerivatives(r, rows, p);
+    }
+    Float cost{}, share{};
+    const Float valid_count = all(static_cast<float>(size));
+    for (p = 0; p < size; p += LANES) {
       const Float valid = select(
           index + all(static_cast<float>(p)) < valid_count, all(1.0F), all(0.0F));
-      const Row r = row<KIND>(l, local(l, points, begin + p));
       const Float q = points.precision ? load(points.precision + begin + p) : all(1.0F);
-      const Weight w =
-          weight<ROBUST>(q * r.residual * r.residual, s, c, inverse_s, log_full);
+      const Float r = load(rows[11] + p);
+      const Weight w = weight<ROBUST>(q * r * r, s, c, inverse_s, log_full);
       cost += valid * w.cost;
       share += valid * w.share;
       if (DERIVATIVES) {
         const Float root = sqrt(valid * w.share * q);
-        const Float f = root * r.factor;
-        const Vector g = {root * r.spatial.x, root * r.spatial.y, root * r.spatial.z};
-        store(rows[0] + p, -g.x);
-        store(rows[1] + p, -g.y);
-        store(rows[2] + p, -g.z);
-        store(rows[3] + p, g.y * r.at.z - g.z * r.at.y);
-        store(rows[4] + p, g.z * r.at.x - g.x * r.at.z);
-        store(rows[5] + p, g.x * r.at.y - g.y * r.at.x);
-        store(rows[6] + p, -f * r.gauge.a1);
-        store(rows[7] + p, -f * r.gauge.a2);
-        store(rows[8] + p, -f * r.gauge.a3);
-        store(rows[9] + p, f * r.gauge.e1);
-        store(rows[10] + p, f * r.gauge.e2);
-        store(rows[11] + p, root * r.residual);
+        for (int i = 0; i < ROWS; ++i)
+          store(rows[i] + p, root * load(rows[i] + p));
       }
     }
     out.cost += static_cast<double>(sum(cost));

@@ -149,14 +149,13 @@ inline Float log(Float x) {
   const Float f = fromBits(i - (exponent << 23)) - 1.0F;
   const Float n = __builtin_convertvector(exponent, Float);
   const Float f2 = f * f;
-  Float y = 7.0376836292e-2F * f - 1.1514610310e-1F;
-  y = y * f + 1.1676998740e-1F;
-  y = y * f - 1.2420140846e-1F;
-  y = y * f + 1.4249322787e-1F;
-  y = y * f - 1.6668057665e-1F;
-  y = y * f + 2.0000714765e-1F;
-  y = y * f - 2.4999993993e-1F;
-  y = y * f + 3.3333331174e-1F;
+  const Float f4 = f2 * f2;
+  // Estrin's order: short chains instead of one long one
+  const Float p0 = (-1.6668057665e-1F * f + 2.0000714765e-1F) * f2 +
+                   (-2.4999993993e-1F * f + 3.3333331174e-1F);
+  const Float p4 = (-1.1514610310e-1F * f + 1.1676998740e-1F) * f2 +
+                   (-1.2420140846e-1F * f + 1.4249322787e-1F);
+  Float y = (7.0376836292e-2F * f4 + p4) * f4 + p0;
   y = y * f * f2 - 2.12194440e-4F * n - 0.5F * f2;
   return f + y + 0.693359375F * n;
 }
@@ -169,12 +168,11 @@ inline Float exp(Float x) {
   const Int n = bits(shifted) - 0x4b400000;
   const Float k = shifted - 12582912.0F;
   x = x - k * 0.693359375F + k * 2.12194440e-4F;
-  Float y = 1.9875691500e-4F * x + 1.3981999507e-3F;
-  y = y * x + 8.3334519073e-3F;
-  y = y * x + 4.1665795894e-2F;
-  y = y * x + 1.6666665459e-1F;
-  y = y * x + 5.0000001201e-1F;
-  y = y * x * x + x + 1.0F;
+  const Float x2 = x * x;
+  Float y = (8.3334519073e-3F * x + 4.1665795894e-2F) * x2 +
+            (1.6666665459e-1F * x + 5.0000001201e-1F);
+  y = (1.9875691500e-4F * x + 1.3981999507e-3F) * (x2 * x2) + y;
+  y = y * x2 + (x + 1.0F);
   return y * fromBits((n + 127) << 23);
 }
 #endif

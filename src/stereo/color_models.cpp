@@ -104,13 +104,27 @@ cv::Mat componentAt(const cv::Mat& mask, const cv::Point& place) {
 cv::Mat largestComponents(const cv::Mat& mask) {
   cv::Mat labels, stats, centers;
   const int count = cv::connectedComponentsWithStats(mask, labels, stats, centers);
+  const auto areaOf = [&](int i) { return stats.at<int>(i, cv::CC_STAT_AREA); };
+  const auto boxOf = [&](int i) {
+    return cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT),
+                    stats.at<int>(i, cv::CC_STAT_TOP),
+                    stats.at<int>(i, cv::CC_STAT_WIDTH),
+                    stats.at<int>(i, cv::CC_STAT_HEIGHT));
+  };
+  cv::Mat result = cv::Mat::zeros(mask.size(), CV_8U);
   int largest = 0;
   for (int i = 1; i < count; ++i)
-    largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
-  // pieces that a shadow or a label cut off belong to the object too
-  cv::Mat result = cv::Mat::zeros(mask.size(), CV_8U);
+    if (largest == 0 || areaOf(i) > areaOf(largest))
+      largest = i;
+  if (largest == 0)
+    return result;
+  // pieces that a shadow or a label cut off belong to the object too, things of the
+  // same colour elsewhere do not
+  cv::Rect near = boxOf(largest);
+  const cv::Size reach(near.width / 2, near.height / 2);
+  near = (near - cv::Point(reach)) + reach + reach;
   for (int i = 1; i < count; ++i)
-    if (stats.at<int>(i, cv::CC_STAT_AREA) >= 0.15 * largest)
+    if (areaOf(i) >= 0.15 * areaOf(largest) && (boxOf(i) & near).area() > 0)
       result.setTo(255, labels == i);
   return result;
 }

@@ -17,17 +17,9 @@ namespace {
 
 constexpr float NAN_F = std::numeric_limits<float>::quiet_NaN();
 
-int blockSize(const StereoOptions& options, int width) {
-  if (options.block_size != 0)
-    return options.block_size;
-  if (options.matcher == StereoMatcher::SGBM)
-    return 5;
-  return width < 400 ? 21 : 15;
-}
-
 cv::Ptr<cv::StereoMatcher>
 makeMatcher(const StereoOptions& options, const DisparityRange& range, int width) {
-  const int block = blockSize(options, width);
+  const int block = options.blockSizeFor(width);
   cv::Ptr<cv::StereoMatcher> matcher;
   if (options.matcher == StereoMatcher::BM) {
     auto bm = cv::StereoBM::create(range.count, std::max(5, block));

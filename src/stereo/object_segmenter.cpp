@@ -2,7 +2,8 @@
 #include "pcl_sq/stereo/object_segmenter.h"
 
 #include "stereo/color_models.h"
-#include "stereo/table_object.h"
+#include "stereo/depth_objects.h"
+#include "stereo/object_masks.h"
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
@@ -11,6 +12,9 @@
 #include <cmath>
 
 namespace pcl_sq {
+
+using namespace detail;
+
 namespace {
 
 cv::Mat toBgr(const cv::Mat& image) {
@@ -22,90 +26,11 @@ cv::Mat toBgr(const cv::Mat& image) {
   return bgr;
 }
 
-cv::Rect clipped(const cv::Rect& rect, const cv::Mat& image) {
-  return rect & cv::Rect(0, 0, image.cols, image.rows);
-}
+constexpr double PIECE = 0.7; // colours that see less of it than this see a piece
 
-cv::Rect grown(const cv::Rect& rect, double share, const cv::Mat& image) {
-  const int dx = std::max(12, static_cast<int>(share * rect.width));
-  const int dy = std::max(12, static_cast<int>(share * rect.height));
-  return clipped({rect.x - dx, rect.y - dy, rect.width + 2 * dx, rect.height + 2 * dy},
-                 image);
-}
-
-/** \brief Filled ellipse in a rectangle. */
-cv::Mat ellipseMask(const cv::Size& size, const cv::Rect& rect) {
-  cv::Mat mask = cv::Mat::zeros(size, CV_8U);
-  const cv::Point center(rect.x + rect.width / 2, rect.y + rect.height / 2);
-  cv::ellipse(mask, center, {rect.width / 2, rect.height / 2}, 0, 0, 360, 255, -1);
-  return mask;
-}
-
-/** \brief The object in a box, by colour histograms of the box's core and of its
- * surroundings. \param[in] window part of the image that is looked at */
-cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& window) {
-  const cv::Mat part = image(window);
-  const cv::Rect inner = box - window.tl();
-  const cv::Rect core(inner.x + inner.width / 5,
-                      inner.y + inner.height / 8,
-                      std::max(1, inner.width * 3 / 5),
-                      std::max(1, inner.height * 3 / 4));
-  cv::Mat outside(part.size(), CV_8U, cv::Scalar(255));
-  outside(inner).setTo(0);
-  cv::Mat mask = detail::cleanMask(
-      detail::colorProbability(part, ellipseMask(part.size(), core), outside));
-  mask.setTo(0, outside);
-  return mask;
-}
-
-cv::Mat cutInBox(const cv::Mat& image,
-                 const cv::Rect& box,
-                 const cv::Rect& window,
-                 int iterations) {
-  cv::Mat labels(window.size(), CV_8U, cv::Scalar(cv::GC_BGD));
-  labels(box - window.tl()).setTo(cv::GC_PR_FGD);
-  return detail::cutGraph(image(window), labels, iterations);
-}
-
-/** \brief Sharpens a rough mask: its inside is sure, its surroundings are open. */
-cv::Mat cutAroundMask(const cv::Mat& image,
-                      const cv::Mat& rough,
-                      double margin,
-                      int iterations) {
-  const cv::Rect window = grown(cv::boundingRect(rough), margin, image);
-  const cv::Mat part = rough(window);
-  const int reach = std::max(4, std::min(window.width, window.height) / 16);
-  const cv::Mat round =
-      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
-  cv::Mat inner, outer;
-  cv::erode(part, inner, round);
-  cv::dilate(part, outer, round, {-1, -1}, 3); // what stereo did not see
-  cv::Mat labels(window.size(), CV_8U, cv::Scalar(cv::GC_BGD));
-  labels.setTo(cv::GC_PR_BGD, outer);
-  labels.setTo(cv::GC_PR_FGD, part);
-  labels.setTo(cv::GC_FGD, inner);
-  cv::Mat mask = cv::Mat::zeros(image.size(), CV_8U);
-  detail::cutGraph(image(window), labels, iterations).copyTo(mask(window));
-  return mask;
-}
-
-/** \brief Pixels whose colour is near a given one, in the Lab space. */
-cv::Mat nearColor(const cv::Mat& bgr, const cv::Vec3b& color, double radius) {
-  cv::Mat smooth, lab, one(1, 1, CV_8UC3, cv::Scalar(color[0], color[1], color[2]));
-  cv::GaussianBlur(bgr, smooth, {7, 7}, 0.0);
-  cv::cvtColor(smooth, lab, cv::COLOR_BGR2Lab);
-  cv::cvtColor(one, one, cv::COLOR_BGR2Lab);
-  const cv::Vec3b wanted = one.at<cv::Vec3b>(0, 0);
-  cv::Mat mask(bgr.size(), CV_8U);
-  for (int v = 0; v < bgr.rows; ++v)
-    for (int u = 0; u < bgr.cols; ++u) {
-      const cv::Vec3b& c = lab.at<cv::Vec3b>(v, u);
-      // brightness changes with the light, the other two hardly
-      const double l = 0.3 * (c[0] - wanted[0]);
-      const double d = std::hypot(l, c[1] - wanted[1], c[2] - wanted[2]);
-      mask.at<std::uint8_t>(v, u) = d < radius ? 255 : 0;
-    }
-  return mask;
+bool sameSize(const cv::Mat& image, const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
+  return cloud.isOrganized() && image.cols == static_cast<int>(cloud.width) &&
+         image.rows == static_cast<int>(cloud.height);
 }
 
 } // namespace
@@ -150,8 +75,8 @@ bool ObjectSegmenter::finish(const std::string& method,
                      mask,
                      cv::MORPH_OPEN,
                      cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
-  mask = detail::largestComponents(mask);
-  detail::fillSmallHoles(mask, 0.01);
+  mask = largestComponents(mask);
+  fillSmallHoles(mask, 0.01);
   const int area = cv::countNonZero(mask);
   if (area < 9 || area < options_.min_share * static_cast<double>(mask.total()))
     return fail(method, "no object was found; give another hint", segment);
@@ -164,11 +89,22 @@ bool ObjectSegmenter::finish(const std::string& method,
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                                  const PixelRect& box,
                                  Segment& segment) {
+  return segmentBox(image, box, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
+}
+
+bool ObjectSegmenter::segmentBox(const cv::Mat& image,
+                                 const PixelRect& box,
+                                 const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                 Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
     return fail("segmentBox", "the image must be 8-bit and not empty", segment);
+  if (!cloud.empty() && !sameSize(image, cloud))
+    return fail("segmentBox", "image and cloud differ in size", segment);
   const cv::Rect inside = clipped({box.x, box.y, box.width, box.height}, image);
   if (box.empty() || inside.width < 4 || inside.height < 4)
-    return fail("segmentBox", "the box lies outside of the image or is empty", segment);
+    return fail("segmentBox",
+                "the box lies outside of the image or is empty; give one within it",
+                segment);
   const cv::Mat bgr = toBgr(image);
   const cv::Rect window = grown(inside, options_.margin, bgr);
   if (window == inside)
@@ -176,43 +112,66 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                 "the box is the whole image, so nothing shows the background; give a "
                 "smaller box",
                 segment);
-  cv::Mat mask = cv::Mat::zeros(bgr.size(), CV_8U);
-  const cv::Mat part = options_.method == SegmentMethod::COLOR
-                           ? colorInBox(bgr, inside, window)
-                           : cutInBox(bgr, inside, window, options_.iterations);
-  part.copyTo(mask(window));
-  const cv::Rect found = cv::boundingRect(detail::largestComponents(mask));
-  if (found.area() < 0.4 * inside.area()) {
+  const auto cut = [&](const cv::Mat& depth_labels) {
+    cv::Mat whole = cv::Mat::zeros(bgr.size(), CV_8U);
+    const cv::Mat part =
+        options_.method == SegmentMethod::COLOR
+            ? colorInBox(bgr, inside, window)
+            : cutInBox(bgr, inside, window, depth_labels, options_.iterations);
+    part.copyTo(whole(window));
+    return largestComponents(whole);
+  };
+  cv::Mat mask = cut(cv::Mat());
+  cv::Mat depth_labels;
+  // colours alone draw the finer line, unless they see but a piece of what hangs
+  // together in depth
+  if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
+      labelObjectInBox(cloud, inside, window, depth_labels)) {
+    cv::Mat likely = cv::Mat::zeros(bgr.size(), CV_8U);
+    likely(inside).setTo(255, depth_labels(inside - window.tl()) == cv::GC_PR_FGD);
+    if (coverage(mask, likely) < PIECE)
+      mask = cut(depth_labels);
+  }
+  const bool told = cv::boundingRect(mask).area() >= 0.4 * inside.area();
+  if (!told) {
     PCL_WARN(
         "[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
         "its surroundings; the whole box is used.\n");
     mask(inside).setTo(255);
   }
-  return finish("segmentBox", mask, segment);
+  const bool found = finish("segmentBox", mask, segment);
+  segment.outlined = told;
+  return found;
 }
 
 bool ObjectSegmenter::segmentClick(const cv::Mat& image,
                                    int x,
                                    int y,
                                    Segment& segment) {
+  return segmentClick(image, x, y, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
+}
+
+bool ObjectSegmenter::segmentClick(const cv::Mat& image,
+                                   int x,
+                                   int y,
+                                   const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                   Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
     return fail("segmentClick", "the image must be 8-bit and not empty", segment);
+  if (!cloud.empty() && !sameSize(image, cloud))
+    return fail("segmentClick", "image and cloud differ in size", segment);
   if (x < 0 || y < 0 || x >= image.cols || y >= image.rows)
-    return fail("segmentClick", "the point lies outside of the image", segment);
+    return fail("segmentClick",
+                "the point lies outside of the image; give a pixel within it",
+                segment);
   const cv::Mat bgr = toBgr(image);
-  const int r = std::max(2, image.cols / 150);
-  const cv::Rect patch = clipped({x - r, y - r, 2 * r + 1, 2 * r + 1}, bgr);
-  cv::Mat object = cv::Mat::zeros(bgr.size(), CV_8U);
-  object(patch).setTo(255);
-  // grow: colours of the patch, then of what they lead to
-  cv::Mat rough;
-  for (int round = 0; round < 3; ++round) {
-    const cv::Mat background = object == 0;
-    const cv::Mat mask =
-        detail::cleanMask(detail::colorProbability(bgr, object, background)) | object;
-    rough = detail::componentAt(mask, {x, y});
-    object = rough;
-  }
+  cv::Mat rough = growColors(bgr, {x, y});
+  cv::Mat patch;
+  // colours alone, unless they see but a piece, or lead on to other depths
+  if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
+      findObjectAt(cloud, {x, y}, patch) &&
+      (coverage(rough, patch) < PIECE || shareAtDepthOf(cloud, patch, rough) < PIECE))
+    rough = patch;
   if (cv::countNonZero(rough) > 0.5 * static_cast<double>(rough.total()))
     return fail("segmentClick",
                 "the object's colour is that of the background; give a box",
@@ -232,13 +191,12 @@ bool ObjectSegmenter::segmentColor(
   const cv::Mat bgr = toBgr(image);
   const cv::Mat seeds =
       nearColor(bgr, {level(blue), level(green), level(red)}, options_.color_radius);
-  cv::Mat object = detail::largestComponents(detail::cleanMask(seeds));
+  cv::Mat object = largestComponents(cleanMask(seeds));
   if (cv::countNonZero(object) == 0)
     return fail("segmentColor", "no pixel has that colour; give another one", segment);
   // the object's own colours: darker and lighter spots join in
-  const cv::Mat mask =
-      detail::cleanMask(detail::colorProbability(bgr, object, seeds == 0)) | object;
-  object = detail::largestComponents(mask);
+  const cv::Mat mask = cleanMask(colorProbability(bgr, object, seeds == 0)) | object;
+  object = largestComponents(mask);
   if (options_.method == SegmentMethod::GRABCUT)
     object = cutAroundMask(bgr, object, options_.margin, options_.iterations);
   return finish("segmentColor", object, segment);
@@ -249,13 +207,11 @@ bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
                                       Segment& segment) {
   if (!cloud.isOrganized() || cloud.empty())
     return fail("segmentTabletop", "the cloud must be organized", segment);
-  const auto width = static_cast<int>(cloud.width);
-  const auto height = static_cast<int>(cloud.height);
-  if (!image.empty() && (image.cols != width || image.rows != height))
+  if (!image.empty() && !sameSize(image, cloud))
     return fail("segmentTabletop", "image and cloud differ in size", segment);
   cv::Mat rough;
   std::string why;
-  if (!detail::findTableObject(cloud, rough, why))
+  if (!findTableObject(cloud, rough, why))
     return fail("segmentTabletop", why, segment);
   if (!image.empty())
     rough = cutAroundMask(toBgr(image), rough, options_.margin, options_.iterations);

@@ -5,6 +5,14 @@
 
 namespace pcl_sq {
 
+int StereoOptions::blockSizeFor(int width) const {
+  if (block_size != 0)
+    return block_size;
+  if (matcher == StereoMatcher::SGBM)
+    return 5;
+  return width < 600 ? 11 : 15; // small images have small objects
+}
+
 bool StereoOptions::isValid(std::string* why) const {
   const auto require = [why](bool holds, const char* reason) {
     if (!holds && why != nullptr)

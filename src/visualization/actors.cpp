@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visualization/actors.h"
 
+#include "pcl_sq/visibility.h"
 #include "visualization/cloud_style.h"
 #include "visualization/display_surface.h"
 #include "visualization/ink.h"
@@ -27,6 +28,8 @@ namespace {
 
 /// Outlines are drawn this far in front of their surface, in sizes of the object.
 constexpr double OUTLINE_LIFT = 0.003;
+/// How far the side that the sensor did not see fades into the background, 0 to 1.
+constexpr double UNSEEN = 0.65;
 
 void setColor(vtkProperty* property, Color color) {
   property->SetColor(color.r / 255.0, color.g / 255.0, color.b / 255.0);
@@ -50,6 +53,23 @@ makeTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   return cells;
 }
 
+/** \brief A part's colour for each vertex, lighter where the sensor could not see. */
+vtkNew<vtkUnsignedCharArray> sensorColors(const SnapshotScene& scene,
+                                          const DisplaySurface& surface,
+                                          std::size_t index,
+                                          const Eigen::Vector3d& sensor) {
+  const Color color = partColor(index);
+  const Color pale = mix(color, scene.options.background, UNSEEN);
+  const double slack = 0.01 * scene.model.parts[index].semi_axes.minCoeff();
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (const Eigen::Vector3d& v : surface.vertices) {
+    const Color c = isHidden(scene.model, v, sensor, slack) ? pale : color;
+    colors->InsertNextTypedTuple(std::array<unsigned char, 3>{c.r, c.g, c.b}.data());
+  }
+  return colors;
+}
+
 } // namespace
 
 Stage::Stage(vtkRenderer* renderer,
@@ -66,7 +86,7 @@ Stage::Stage(vtkRenderer* renderer,
 void Stage::add(const SnapshotScene& scene) {
   addClouds(scene);
   for (std::size_t i = 0; i < scene.model.parts.size(); ++i)
-    addPart(scene.model.parts[i], partColor(i), scene.options);
+    addPart(scene, i);
   for (const auto& surface : scene.surfaces)
     addSurface(surface);
   for (const auto& s : scene.segments)
@@ -140,10 +160,10 @@ void Stage::addClouds(const SnapshotScene& scene) {
   renderer_->AddActor(actor);
 }
 
-void Stage::addPart(const Superquadric& part,
-                    Color color,
-                    const SnapshotOptions& options) {
-  const DisplaySurface surface = displaySurface(part);
+void Stage::addPart(const SnapshotScene& scene, std::size_t index) {
+  const SnapshotOptions& options = scene.options;
+  const Color color = partColor(index);
+  const DisplaySurface surface = displaySurface(scene.model.parts[index]);
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
@@ -157,6 +177,9 @@ void Stage::addPart(const Superquadric& part,
   data->SetPoints(points);
   data->SetPolys(makeTriangles(surface.triangles));
   data->GetPointData()->SetNormals(normals);
+  if (options.sensor)
+    data->GetPointData()->SetScalars(
+        sensorColors(scene, surface, index, *options.sensor));
   const auto actor = makeActor(data);
   vtkProperty* property = actor->GetProperty();
   setColor(property, color);

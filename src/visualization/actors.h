@@ -32,7 +32,7 @@ private:
   void placeCamera();
   void placeLights();
   void addClouds(const SnapshotScene& scene);
-  void addPart(const Superquadric& part, Color color, const SnapshotOptions& options);
+  void addPart(const SnapshotScene& scene, std::size_t index);
   void addSurface(const SnapshotScene::Surface& surface);
   void addSegments(const Eigen::Matrix3Xd& ends, Color color, double width);
   void addMarkers(const SnapshotScene::Markers& markers);

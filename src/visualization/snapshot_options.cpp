@@ -9,6 +9,8 @@ bool SnapshotOptions::isValid(std::string* why) const {
     reason = "the picture's sides must be 16 to 4096 pixels";
   else if (!up.allFinite() || !(up.norm() > 1e-6))
     reason = "the upward direction must be finite and not zero";
+  else if (sensor && !sensor->allFinite())
+    reason = "the sensor's place must be finite";
   else if (!(opacity >= 0.0 && opacity <= 1.0))
     reason = "the opacity must lie in [0, 1]";
   else if (!(context >= 0.0))

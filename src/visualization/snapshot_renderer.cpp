@@ -180,7 +180,7 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(
   std::unique_ptr<FrameRenderer> renderer;
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) {
-    char number[16];
+    char number[24];
     std::snprintf(number, sizeof number, "_%03d.png", i);
     names.push_back(path.substr(0, path.size() - 4) + number);
     PngFile file(names.back(), SAVE);

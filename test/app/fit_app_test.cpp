@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include "pcl_sq/model_io.h"
+#include "pcl_sq/tapered_superquadric.h"
 
 #include <gtest/gtest.h>
 
@@ -134,6 +135,67 @@ TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
   }
   EXPECT_FALSE(std::getline(lines, line));
   EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
+}
+
+TEST(FitApp, TapersACupAndLeavesACanAlone) {
+  const Folder folder;
+  TaperedSuperquadric cup;
+  cup.shape.center = {0.0, 0.1, 0.7};
+  cup.shape.semi_axes = {0.036, 0.036, 0.048};
+  cup.shape.epsilon1 = 0.15;
+  for (const double taper : {0.25, 0.0}) {
+    cup.kx = cup.ky = taper;
+    std::vector<Eigen::Vector3f> points;
+    for (const Eigen::Vector3d& p : sampleUniform(cup.shape, 1500))
+      points.push_back(cup.tapered(p).cast<float>());
+    const std::string cloud = folder.write("cup.pcd", pcdOf(points));
+    const ProgramRun run = runProgram("pcl_sq_fit",
+                                      {cloud,
+                                       "--decomposition",
+                                       "none",
+                                       "--taper",
+                                       "-o",
+                                       folder / "m.json",
+                                       "--mesh",
+                                       folder / "m.obj"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    ModelFile file;
+    EXPECT_EQ(fromJson(slurp(folder / "m.json"), file), taper == 0.0);
+    std::string why;
+    ASSERT_TRUE(fromJson(slurp(folder / "m.json"), file, &why, TaperedParts::READ))
+        << why;
+    ASSERT_EQ(file.model.size(), 1u);
+    const bool tapered = !file.tapers.empty();
+    EXPECT_EQ(tapered, taper > 0.0);
+    TaperedSuperquadric found;
+    found.shape = file.model.parts[0];
+    if (tapered) {
+      found.kx = file.tapers[0][0];
+      found.ky = file.tapers[0][1];
+      EXPECT_NEAR(std::abs(found.kx), taper, 0.01);
+    }
+    EXPECT_NEAR(found.volume(), cup.volume(), 0.01 * cup.volume());
+    std::istringstream mesh(slurp(folder / "m.obj"));
+    std::string word;
+    for (std::string line; std::getline(mesh, line);) {
+      std::istringstream fields(line);
+      Eigen::Vector3d v;
+      if (fields >> word && word == "v" && fields >> v.x() >> v.y() >> v.z()) {
+        ASSERT_NEAR(found.gauge(v), 1.0, 1e-3);
+      }
+    }
+    // what cannot respect a taper says so
+    EXPECT_EQ(runProgram("pcl_sq_grasp", {folder / "m.json"}).code == 1, tapered);
+  }
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--decomposition", "prisms"},
+           {},
+           {"--decomposition", "none", "--grasps", "5"},
+           {"--decomposition", "none", "--grasp-points", folder / "g.pcd"}}) {
+    std::vector<std::string> arguments = {folder / "cup.pcd", "--taper"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expectRefusal(folder, arguments, 2);
+  }
 }
 
 TEST(FitApp, BadCommandLinesEndWithTwo) {

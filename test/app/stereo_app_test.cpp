@@ -5,6 +5,7 @@
 #include "pcl_sq/model_io.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 using namespace pcl_sq;
 using namespace pcl_sq::test;
@@ -103,8 +104,17 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   expectRefusal({l, r, "--calib", c, "--block-size", "4"}, "odd", 2);
   expectRefusal({l, r, "--calib", c, "--clik", "3,4"}, "--clik", 2);
   expectRefusal({l, r, "--calib", c, "--segment", "none"}, "needs --roi", 2);
+  expectRefusal({l, r, "--calib", c, "--click", "5000,10"}, "within it");
+  expectRefusal({l, r, "--calib", c, "--color", "300,0,0"}, "not in range", 2);
+  expectRefusal({l, r, "--calib", c, "--color", "255,0,255"}, "give another one");
   expectRefusal({l, file("mask.png"), "--calib", c}, "nothing matches");
   const Folder folder;
+  const std::string grey =
+      folder.write("grey.pgm", "P5\n640 480\n255\n" + std::string(640 * 480, '\x80'));
+  expectRefusal({grey, grey, "--calib", c}, "no texture");
+  const std::string small =
+      folder.write("small.pgm", "P5\n64 48\n255\n" + std::string(64 * 48, '\x80'));
+  expectRefusal({l, small, "--calib", c}, "two images of one size");
   const std::string zero =
       folder.write("zero.txt", "f=811.6\ncx=319.5\ncy=239.5\nbaseline=0\n");
   expectRefusal({l, r, "--calib", zero}, "baseline is zero");
@@ -114,16 +124,97 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   expectRefusal({l, r, "--calib", other}, "calibration is for");
 }
 
-TEST_F(StereoApp, AnEmptyMaskIsRefused) {
-  const Folder folder;
+TEST_F(StereoApp, MasksThatDoNotSuitAreRefusedAndNothingIsWritten) {
+  const Folder folder, out;
   // a 1 x 1 portable grey map is the smallest image there is
   const std::string tiny = folder.write("tiny.pgm", "P2\n1 1\n255\n0\n");
   auto arguments = pair();
+  arguments.insert(arguments.end(), {"-o", out / "m.json", "--panel", out / "p.png"});
   arguments.insert(arguments.end(), {"--mask", tiny});
   expectRefusal(arguments, "differ in size");
-  std::string black = "P5\n640 480\n255\n" + std::string(640 * 480, '\0');
-  arguments.back() = folder.write("black.pgm", black);
+  std::string image = "P5\n640 480\n255\n" + std::string(640 * 480, '\0');
+  arguments.back() = folder.write("black.pgm", image);
   expectRefusal(arguments, "empty");
+  for (std::size_t row = 0; row < 4; ++row) // the image's corner: nothing matches there
+    for (std::size_t column = 0; column < 4; ++column)
+      image[image.size() - 640 * 480 + 640 * row + column] = '\xff';
+  arguments.back() = folder.write("corner.pgm", image);
+  expectRefusal(arguments, "no cluster of depths");
+  EXPECT_EQ(out.files(), 0u);
+}
+
+TEST_F(StereoApp, TheBorderFilterTakesTheRimOfTheObjectAway) {
+  const Folder out;
+  std::vector<std::size_t> sizes;
+  for (const bool filter : {false, true}) {
+    std::vector<std::string> more{
+        "--click", "320,240", "-o", out / "m.json", "--object-cloud", out / "o.ply"};
+    if (filter)
+      more.emplace_back("--border-filter");
+    const ProgramRun run = stereo(pair(), more);
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string cloud = slurp(out / "o.ply"), key = "element vertex ";
+    sizes.push_back(std::stoul(cloud.substr(cloud.find(key) + key.size())));
+  }
+  EXPECT_LT(sizes[1], sizes[0]);
+  EXPECT_GT(sizes[1], sizes[0] / 2);
+}
+
+TEST_F(StereoApp, SmoothedDisparitiesAreWrittenAndNamed) {
+  const Folder out;
+  for (const std::string name : {"plain", "wls"}) {
+    std::vector<std::string> more{"--matcher",
+                                  "sgbm",
+                                  "--click",
+                                  "320,240",
+                                  "--disparity",
+                                  out / (name + ".pfm"),
+                                  "-o",
+                                  out / (name + ".json")};
+    if (name == "wls")
+      more.emplace_back("--wls");
+    const ProgramRun run = stereo(pair(), more);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(slurp(out / (name + ".json"))
+                  .find(name == "wls" ? "\"wls\": true" : "\"wls\": false"),
+              std::string::npos);
+  }
+  EXPECT_NE(slurp(out / "plain.pfm"), slurp(out / "wls.pfm"));
+}
+
+TEST_F(StereoApp, AMeshWithAPoseIsJudgedAsTheTruthThatHoldsBoth) {
+  const Folder out;
+  ASSERT_EQ(stereo(pair(), {"--click", "320,240", "-o", out / "m.json"}).code, 0);
+  const auto judge = [&](const std::vector<std::string>& reference) {
+    std::vector<std::string> arguments{out / "m.json"};
+    arguments.insert(arguments.end(), reference.begin(), reference.end());
+    const ProgramRun run = runProgram("pcl_sq_evaluate", arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(run.out).value("shape", nlohmann::json());
+  };
+  const auto truth = nlohmann::json::parse(slurp(StereoApp::file("truth.json")));
+  std::string pose;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      pose += truth["pose"]["rotation"][i][k].dump() + ",";
+    pose += truth["pose"]["translation"][i].dump() + ",";
+  }
+  pose += "0,0,0,1";
+  const auto by_truth = judge({"--truth", StereoApp::file("truth.json")});
+  const auto by_pose = judge({"--mesh",
+                              StereoApp::file("mesh.ply"),
+                              "--pose",
+                              pose,
+                              "--symmetry",
+                              "revolution"});
+  ASSERT_TRUE(by_truth.contains("iou") && by_pose.contains("iou"));
+  EXPECT_NEAR(by_pose["iou"].get<double>(), by_truth["iou"].get<double>(), 1e-6);
+  EXPECT_NEAR(by_pose["axis_error_deg"].get<double>(),
+              by_truth["axis_error_deg"].get<double>(),
+              1e-6);
+  // without the pose the mesh stands in the camera
+  const auto elsewhere = judge({"--mesh", StereoApp::file("mesh.ply")});
+  EXPECT_LT(elsewhere["iou"].get<double>(), 0.01);
 }
 
 TEST_F(StereoApp, TheSameSeedGivesTheSameBytes) {

@@ -113,9 +113,8 @@ TEST(ObjectSurfaceEstimation, PointOrderDoesNotMatterBeyondRounding) {
   const MultiSuperquadric backward = estimate(estimation);
   ASSERT_EQ(forward.size(), backward.size());
   for (std::size_t i = 0; i < forward.size(); ++i) {
-    EXPECT_LT((forward.parts[i].semi_axes - backward.parts[i].semi_axes).norm(), 1e-6);
-    // an exponent of a half-seen part is the least certain number of all
-    EXPECT_NEAR(forward.parts[i].epsilon1, backward.parts[i].epsilon1, 1e-3);
+    EXPECT_LT((forward.parts[i].semi_axes - backward.parts[i].semi_axes).norm(), 1e-9);
+    EXPECT_NEAR(forward.parts[i].epsilon1, backward.parts[i].epsilon1, 1e-6);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -77,6 +78,36 @@ inline double overlap(const PixelRect& a, const PixelRect& b) {
   const cv::Rect p(a.x, a.y, a.width, a.height), q(b.x, b.y, b.width, b.height);
   const double both = (p & q).area();
   return both / (p.area() + q.area() - both);
+}
+
+/** \brief Pixels (255) whose match lies in the right image and behind nothing that the
+ * left image shows: the usual definition of "not occluded", from the left truth alone.
+ */
+inline cv::Mat visibleInRight(const cv::Mat& truth) {
+  cv::Mat visible = cv::Mat::zeros(truth.size(), CV_8U);
+  std::vector<float> nearest;
+  for (int v = 0; v < truth.rows; ++v) {
+    nearest.assign(static_cast<std::size_t>(truth.cols) + 1, 0.0f);
+    const auto match = [&](int u) {
+      return static_cast<float>(u) - truth.at<float>(v, u);
+    };
+    const auto known = [&](int u) {
+      return std::isfinite(truth.at<float>(v, u)) && truth.at<float>(v, u) > 0.0f &&
+             match(u) >= 0.0f;
+    };
+    for (int u = 0; u < truth.cols; ++u)
+      if (known(u))
+        for (const float x : {std::floor(match(u)), std::floor(match(u)) + 1.0f}) {
+          float& d = nearest[static_cast<std::size_t>(x)];
+          d = std::max(d, truth.at<float>(v, u));
+        }
+    for (int u = 0; u < truth.cols; ++u) // a slant may change by a pixel
+      if (known(u) &&
+          truth.at<float>(v, u) >
+              nearest[static_cast<std::size_t>(std::lround(match(u)))] - 1.0f)
+        visible.at<std::uint8_t>(v, u) = 255;
+  }
+  return visible;
 }
 
 /** \brief Median error and share of matched pixels, where \a truth is known. */

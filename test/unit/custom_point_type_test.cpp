@@ -6,11 +6,14 @@
 #include "pcl_sq/prism_segmentation.h"
 #include "pcl_sq/roi_crop.h"
 #include "pcl_sq/roi_estimator.h"
+#include "pcl_sq/sac_model_superquadric.h"
+#include "pcl_sq/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
+#include <pcl/sample_consensus/ransac.h>
 
 namespace {
 
@@ -70,4 +73,31 @@ TEST(CustomPointType, GoesThroughAllElements) {
   grasp.setInputCloud(object);
   grasp.filter(points);
   EXPECT_FALSE(points.empty());
+}
+
+TEST(CustomPointType, IsFittedBySampleConsensus) {
+  pcl_sq::Superquadric truth;
+  truth.semi_axes = {0.03, 0.04, 0.06};
+  truth.epsilon1 = 0.4;
+  pcl::PointCloud<ThermalPoint>::Ptr cloud(new pcl::PointCloud<ThermalPoint>);
+  for (const Eigen::Vector3d& p : pcl_sq::sampleUniform(truth, 600)) {
+    ThermalPoint q;
+    q.getVector3fMap() = p.cast<float>();
+    q.kelvin = 300.0f;
+    cloud->push_back(q);
+  }
+  using Model = pcl_sq::SampleConsensusModelSuperquadric<ThermalPoint>;
+  Model::Ptr model(new Model(cloud));
+  pcl::RandomSampleConsensus<ThermalPoint> ransac(model, 0.002);
+  ransac.setMaxIterations(20);
+  ASSERT_TRUE(ransac.computeModel());
+  pcl::Indices inliers;
+  ransac.getInliers(inliers);
+  EXPECT_GT(inliers.size(), 570u);
+  Eigen::VectorXf coefficients;
+  ransac.getModelCoefficients(coefficients);
+  pcl::PointCloud<ThermalPoint> projected;
+  model->projectPoints(inliers, coefficients, projected, false);
+  ASSERT_EQ(projected.size(), inliers.size());
+  EXPECT_EQ(projected.front().kelvin, 300.0f) << "fields unknown to PCL go along";
 }

@@ -162,6 +162,51 @@ TEST(FullFit, HoldsParametersAtTheStart) {
   EXPECT_LT((s.model.semi_axes - truth.semi_axes).norm(), 1e-4);
 }
 
+TEST(FullFit, HoldsEachParameterAloneAndKnowsItWithoutDoubt) {
+  Random random(11);
+  const Superquadric truth = object(random);
+  Eigen::Matrix3Xd points = surface(random, truth, 400);
+  for (int i = 0; i < points.cols(); ++i)
+    points.col(i) += 0.0005 * random.normal() * random.direction();
+  Superquadric start = truth;
+  start.center += 0.002 * random.direction();
+  start.rotation *= Eigen::AngleAxisd(0.05, random.direction()).toRotationMatrix();
+  start.semi_axes *= 1.1;
+  start.epsilon1 += 0.1;
+  start.epsilon2 += 0.1;
+  for (const unsigned fixed : {FIX_CENTER,
+                               FIX_ROTATION,
+                               FIX_SEMI_AXIS_1,
+                               FIX_SEMI_AXIS_2,
+                               FIX_SEMI_AXIS_3,
+                               FIX_EPSILON_1,
+                               FIX_EPSILON_2}) {
+    FitOptions o;
+    o.fixed = fixed;
+    const FitSummary s = fitSuperquadric(points, start, o);
+    ASSERT_TRUE(s.ok());
+    const bool held[] = {(s.model.center - start.center).norm() < 1e-9,
+                         (s.model.rotation - start.rotation).norm() < 1e-9,
+                         std::abs(s.model.semi_axes[0] - start.semi_axes[0]) < 1e-9,
+                         std::abs(s.model.semi_axes[1] - start.semi_axes[1]) < 1e-9,
+                         std::abs(s.model.semi_axes[2] - start.semi_axes[2]) < 1e-9,
+                         s.model.epsilon1 == start.epsilon1,
+                         s.model.epsilon2 == start.epsilon2};
+    const unsigned groups[] = {FIX_CENTER,
+                               FIX_ROTATION,
+                               FIX_SEMI_AXIS_1,
+                               FIX_SEMI_AXIS_2,
+                               FIX_SEMI_AXIS_3,
+                               FIX_EPSILON_1,
+                               FIX_EPSILON_2};
+    for (int i = 0; i < 7; ++i)
+      EXPECT_EQ(held[i], groups[i] == fixed) << fixed << ", " << groups[i];
+    for (int i = 0; i < 11; ++i)
+      EXPECT_EQ(s.covariance(i, i) == 0.0, (fixed >> i & 1U) != 0)
+          << fixed << ", " << i;
+  }
+}
+
 TEST(FullFit, CovarianceIsThatOfRepeatedFits) {
   Random random(8);
   const Superquadric truth = object(random);
@@ -200,6 +245,13 @@ TEST(FullFit, SaysWhyThereIsNoFit) {
   o.fixed = FIX_CENTER; // at what, without a start?
   EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), o).termination,
             Termination::INVALID_OPTIONS);
+  Superquadric far;
+  far.center = {0.0, 1e12, 0.0};
+  EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), far).termination,
+            Termination::INVALID_OPTIONS);
+  far.center *= 1e290; // as numbers go
+  EXPECT_EQ(fitSuperquadric(Eigen::Matrix3Xd::Random(3, 50), far).termination,
+            Termination::INVALID_OPTIONS);
 }
 
 TEST(FullFit, LeavesOutPointsThatAreNone) {
@@ -211,6 +263,19 @@ TEST(FullFit, LeavesOutPointsThatAreNone) {
   const FitSummary s = fitSuperquadric(points);
   EXPECT_EQ(s.points, 400U);
   EXPECT_LT(hausdorff(random, s.model, truth), 1e-4);
+}
+
+TEST(FullFit, ManyPointsInFewPlacesAreFitted) {
+  // six places of a surface, each many times: the subsets must not come out empty
+  Random random(10);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Eigen::Matrix3Xd places = surface(random, object(random), 6);
+    Eigen::Matrix3Xd points(3, 9000);
+    for (int i = 0; i < points.cols(); ++i)
+      points.col(i) = places.col(i % places.cols());
+    const FitSummary s = fitSuperquadric(points);
+    EXPECT_TRUE(s.ok() && s.model.isValid()) << toString(s.termination);
+  }
 }
 
 TEST(FullFit, OptionsKnowTheirRanges) {

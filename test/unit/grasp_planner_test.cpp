@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/grasp_planner.h"
 
-#include "random_superquadric.h"
+#include "grasp_objects.h"
 
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;
-using pcl_sq::test::Random;
+using namespace pcl_sq::test;
 
 namespace {
-
-Superquadric
-part(const Eigen::Vector3d& axes, double e1, double e2, const Eigen::Vector3d& center) {
-  Superquadric s;
-  s.semi_axes = axes;
-  s.epsilon1 = e1;
-  s.epsilon2 = e2;
-  s.center = center;
-  return s;
-}
-
-/** \brief A cup of 7 cm with a handle, standing on z = 0. */
-MultiSuperquadric cup() {
-  MultiSuperquadric cup;
-  cup.parts = {part({0.035, 0.035, 0.05}, 0.15, 1.0, {0.0, 0.0, 0.05}),
-               part({0.006, 0.006, 0.028}, 0.3, 0.5, {0.060, 0.0, 0.05}),
-               part({0.016, 0.006, 0.006}, 0.5, 0.3, {0.049, 0.0, 0.075}),
-               part({0.016, 0.006, 0.006}, 0.5, 0.3, {0.049, 0.0, 0.025})};
-  return cup;
-}
-
-MultiSuperquadric bottle() {
-  MultiSuperquadric bottle;
-  bottle.parts = {part({0.033, 0.033, 0.1}, 0.2, 1.0, {0.0, 0.0, 0.1}),
-                  part({0.013, 0.013, 0.04}, 0.2, 1.0, {0.0, 0.0, 0.23})};
-  return bottle;
-}
-
-GraspScene onTable() {
-  GraspScene scene;
-  scene.has_table = true;
-  scene.has_viewpoint = true;
-  scene.viewpoint = {0.0, -0.8, 0.5};
-  return scene;
-}
 
 /** \brief The object in another frame. */
 MultiSuperquadric
@@ -53,14 +18,6 @@ moved(MultiSuperquadric object, const Eigen::Matrix3d& r, const Eigen::Vector3d&
     s.center = r * s.center + t;
   }
   return object;
-}
-
-std::vector<double> reach(const Gripper& gripper, const Grasp& grasp) {
-  std::vector<double> all;
-  for (int i = 0; i < gripper.fingers; ++i)
-    all.push_back(gripper.fingerDirection(grasp.rotation, i)
-                      .dot(grasp.contacts[std::size_t(i)].position - grasp.position));
-  return all;
 }
 
 } // namespace
@@ -253,70 +210,6 @@ TEST(GraspPlanner, ATableAboveTheObjectLeavesOnlyCollisions) {
   EXPECT_FALSE(plan.ok());
   EXPECT_NE(plan.failure.find("the table"), std::string::npos) << plan.failure;
   EXPECT_GT(plan.rejections.table, 0u);
-}
-
-TEST(GraspPlanner, MeasuredPointsInTheWayAreAvoidedAndNoiseIsNot) {
-  GraspScene scene = onTable();
-  const GraspPlan free = GraspPlanner().plan(bottle(), scene);
-  ASSERT_TRUE(free.ok());
-  // a dense wall beside the bottle on the side of negative x
-  std::vector<Eigen::Vector3d> wall;
-  for (double y = -0.3; y < 0.3; y += 0.002)
-    for (double z = 0.0; z < 0.4; z += 0.002)
-      wall.emplace_back(-0.045, y, z);
-  scene.cloud =
-      Eigen::Map<Eigen::Matrix3Xd>(wall[0].data(), 3, Eigen::Index(wall.size()));
-  const GraspPlan plan = GraspPlanner().plan(bottle(), scene);
-  ASSERT_TRUE(plan.ok()) << plan.failure;
-  EXPECT_GT(plan.rejections.cloud, 0u);
-  for (const Grasp& grasp : plan.grasps)
-    for (const OrientedBox& box :
-         Gripper().boxes(grasp.position, grasp.rotation, reach(Gripper(), grasp)))
-      for (const Eigen::Vector3d& p : wall)
-        ASSERT_FALSE(box.contains(p));
-  // single flying points are no obstacle
-  scene.cloud.resize(3, 40);
-  Random random(203);
-  for (int i = 0; i < 40; ++i)
-    scene.cloud.col(i) = Eigen::Vector3d(random.uniform(-0.3, 0.3),
-                                         random.uniform(-0.3, 0.3),
-                                         random.uniform(0.05, 0.4));
-  EXPECT_EQ(GraspPlanner().plan(bottle(), scene).rejections.cloud, 0u);
-}
-
-TEST(GraspPlanner, ContactsBesideMeasuredPointsCountAsObserved) {
-  const MultiSuperquadric object = bottle();
-  GraspScene scene = onTable();
-  std::vector<Eigen::Vector3d> seen; // the half of the body towards negative x
-  Random random(204);
-  for (int i = 0; i < 5000; ++i) {
-    const Eigen::Vector3d p = random.surfacePoint(object.parts[0]);
-    if (p.x() < 0.0)
-      seen.push_back(p);
-  }
-  scene.cloud =
-      Eigen::Map<Eigen::Matrix3Xd>(seen[0].data(), 3, Eigen::Index(seen.size()));
-  int near = 0;
-  for (const Grasp& grasp : GraspPlanner().plan(object, scene).grasps)
-    for (const GraspContact& contact : grasp.contacts)
-      if (contact.part == 0 && contact.position.x() < -0.005) {
-        EXPECT_EQ(contact.observed, 1.0);
-        ++near;
-      } else if (contact.position.x() > 0.01) {
-        EXPECT_LE(contact.observed, 0.5);
-      }
-  EXPECT_GT(near, 10);
-}
-
-TEST(GraspPlanner, AnotherObjectInTheWayIsAvoided) {
-  GraspScene scene = onTable();
-  scene.obstacles.parts = {part({0.05, 0.05, 0.15}, 0.2, 0.2, {0.12, 0.0, 0.15})};
-  const GraspPlan plan = GraspPlanner().plan(bottle(), scene);
-  ASSERT_TRUE(plan.ok()) << plan.failure;
-  for (const Grasp& grasp : plan.grasps)
-    for (const OrientedBox& box :
-         Gripper().boxes(grasp.position, grasp.rotation, reach(Gripper(), grasp)))
-      EXPECT_GE(distance(box, scene.obstacles.parts[0]), 0.002 - 1e-6);
 }
 
 TEST(GraspPlanner, WrenchQualityIsComputedOnDemand) {

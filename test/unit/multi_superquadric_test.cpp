@@ -114,6 +114,25 @@ TEST(ModelIo, WrittenModelReadsBackToTheLastBit) {
   EXPECT_EQ(toJson(file, -1).find('\n'), std::string::npos);
 }
 
+TEST(ModelIo, TaperedPartsReachOnlyTheReaderThatAsksForThem) {
+  ModelFile file = sampleFile();
+  file.tapers.assign(file.model.size(), {0.0, 0.0});
+  EXPECT_NE(toJson(file).find("\"version\": 1"), std::string::npos) << "none tapers";
+  file.tapers[0] = {0.2, -0.3};
+  const std::string text = toJson(file);
+  ModelFile back;
+  std::string why;
+  EXPECT_FALSE(fromJson(text, back, &why));
+  EXPECT_NE(why.find("tapered"), std::string::npos) << why;
+  EXPECT_TRUE(back.model.empty());
+  ASSERT_TRUE(fromJson(text, back, &why, TaperedParts::READ)) << why;
+  EXPECT_EQ(back.tapers, file.tapers);
+  EXPECT_EQ(toJson(back), text);
+  file.tapers[0] = {1.5, 0.0};
+  EXPECT_FALSE(fromJson(toJson(file), back, &why, TaperedParts::READ));
+  EXPECT_NE(why.find("taper"), std::string::npos) << why;
+}
+
 TEST(ModelIo, RefusesWhatIsNoModelAndSaysWhy) {
   const std::string good = toJson(sampleFile());
   const auto refuses = [](std::string text,
@@ -131,7 +150,7 @@ TEST(ModelIo, RefusesWhatIsNoModelAndSaysWhy) {
     EXPECT_TRUE(file.frame.empty() && file.model.empty());
   };
   refuses(good, "pcl_sq/model", "other", "not a pcl_sq/model");
-  refuses(good, "\"version\": 1", "\"version\": 2", "version 2");
+  refuses(good, "\"version\": 1", "\"version\": 3", "version 3");
   refuses(good, "\"unit\": \"m\"", "\"unit\": \"mm\"", "unit");
   refuses(good, "\"semi_axes\": [", "\"semi_axes\": [0.1, ", "numbers");
   refuses(good, "\"semi_axes\"", "\"axes\"", "missing");

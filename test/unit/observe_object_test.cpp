@@ -167,3 +167,32 @@ TEST(FindIntrinsics, RefusesAnImageThatIsNoPinholeImage) {
   PinholeCamera camera;
   EXPECT_FALSE(findIntrinsics(points, 20, 20, camera));
 }
+
+TEST(ObserveObject, BarePointsOfOneViewFromTheOriginGetItAsTheirViewpoint) {
+  const ViewScene scene = canScene();
+  Eigen::Matrix3Xf object(3, scene.points.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < scene.points.cols(); ++i)
+    if (scene.mask.cells[std::size_t(i)] && scene.points.col(i).allFinite())
+      object.col(count++) = scene.points.col(i);
+  object.conservativeResize(3, count);
+  const auto outline = [](const Eigen::Matrix3Xf& points) {
+    ObservedObject observed;
+    EXPECT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
+    EXPECT_EQ(observed.notes.size(), observed.hasCamera() ? 1u : 0u);
+    return observed.outline;
+  };
+  EXPECT_EQ(outline(object), OutlineSource::POINTS);
+  // its own mirror image behind it: seen all around
+  Eigen::Matrix3Xf around(3, 2 * count);
+  const float back = object.row(2).maxCoeff();
+  around << object, object;
+  around.rightCols(count).row(2) = 2.0f * back - object.row(2).array();
+  EXPECT_EQ(outline(around), OutlineSource::NONE);
+  // no camera's frame: beside z, and with the origin among the points
+  Eigen::Matrix3Xf turned = object;
+  turned.row(0) = object.row(2);
+  turned.row(2) = object.row(0);
+  EXPECT_EQ(outline(turned), OutlineSource::NONE);
+  EXPECT_EQ(outline(object.colwise() - object.col(0)), OutlineSource::NONE);
+}

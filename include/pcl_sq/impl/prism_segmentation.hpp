@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/for_each_voxel.hpp"
 #include "pcl_sq/prism_segmentation.h"
 
 #include <pcl/console/print.h>
@@ -61,15 +62,11 @@ void PrismSegmentation<PointT>::distribute(
     clusters[p].indices.reserve(
         std::min(indices_->size(), membership.pointsPerPrism()[p]));
   }
-  const VoxelLocator locate = layout_.locator();
-  for (const auto index : *indices_) {
-    const PointT& point = (*input_)[static_cast<std::size_t>(index)];
-    const std::int32_t voxel = locate(point.x, point.y, point.z);
-    if (voxel < 0)
-      continue;
-    for (const std::uint32_t prism : membership.prismsOf(voxel))
-      clusters[prism].indices.push_back(index);
-  }
+  detail::forEachVoxel(
+      *input_, *indices_, layout_, [&](pcl::index_t index, std::int32_t voxel) {
+        for (const std::uint32_t prism : membership.prismsOf(voxel))
+          clusters[prism].indices.push_back(index);
+      });
 }
 
 template <typename PointT>

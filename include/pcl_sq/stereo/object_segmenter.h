@@ -35,6 +35,9 @@ struct PCL_SQ_EXPORTS SegmenterOptions {
 struct Segment {
   cv::Mat mask;   ///< CV_8U, 255 = object, size of the image
   PixelRect rect; ///< its box
+  /** \brief Whether the mask follows the object's outline; false where colours did not
+   * tell it from its surroundings and the mask is the hint's box. */
+  bool outlined = true;
 };
 
 /** \brief Finds the object in the image (paper, II: "a color based segmentation process
@@ -52,8 +55,22 @@ public:
   /** \brief The object in a box that holds it roughly. */
   [[nodiscard]] bool
   segmentBox(const cv::Mat& image, const PixelRect& box, Segment& segment);
+  /** \brief The same, helped by depth where GRABCUT is the method: what lies on the
+   * plane around the box or at another depth than the box's middle is hardly the
+   * object. \param[in] cloud organized, of the image's size, camera's frame [m] */
+  [[nodiscard]] bool segmentBox(const cv::Mat& image,
+                                const PixelRect& box,
+                                const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                Segment& segment);
   /** \brief The object under a pixel. */
   [[nodiscard]] bool segmentClick(const cv::Mat& image, int x, int y, Segment& segment);
+  /** \brief The same, helped by depth where GRABCUT is the method: objects of many
+   * colours hang together by their depth. \param[in] cloud as in segmentBox() */
+  [[nodiscard]] bool segmentClick(const cv::Mat& image,
+                                  int x,
+                                  int y,
+                                  const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
+                                  Segment& segment);
   /** \brief The largest patch of a colour. \param[in] red, green, blue 0 to 255 */
   [[nodiscard]] bool
   segmentColor(const cv::Mat& image, int red, int green, int blue, Segment& segment);

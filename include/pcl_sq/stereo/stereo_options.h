@@ -17,8 +17,8 @@ enum class StereoMatcher {
  * megapixels. */
 struct PCL_SQ_EXPORTS StereoOptions {
   StereoMatcher matcher = StereoMatcher::BM;
-  /** Side of the matched window [px], odd, 3 to 51; 0: 15 for BM (21 below a width of
-   * 400 px), 5 for SGBM. */
+  /** Side of the matched window [px], odd, 3 to 51; 0: 15 for BM (11 below a width of
+   * 600 px), 5 for SGBM. */
   int block_size = 0;
   /** Nearest and farthest depth that is searched [m], positive; 0: found on reduced
    * images. A fixed range is faster and surer. */
@@ -37,6 +37,8 @@ struct PCL_SQ_EXPORTS StereoOptions {
   /** Whether an order of the images that looks exchanged is an error. */
   bool check_order = true;
 
+  /** \brief Side of the matched window for images of a width [px]. */
+  int blockSizeFor(int width) const;
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;

@@ -4,6 +4,7 @@
 #include "pcl_sq/visualization/palette.h"
 #include "pcl_sq/visualization/view_camera.h"
 
+#include <optional>
 #include <string>
 
 namespace pcl_sq {
@@ -17,6 +18,9 @@ struct PCL_SQ_EXPORTS SnapshotOptions {
   /** \brief Upward direction in the cloud's frame; cameras have y down. */
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
   double opacity = 0.45; ///< of the superquadrics, [0, 1]
+  /** \brief The sensor's place in the cloud's frame [m]: what it could not see of the
+   * superquadrics is drawn lighter. Without it all is drawn alike. */
+  std::optional<Eigen::Vector3d> sensor;
   /** \brief How far around the object the cloud is shown, in diagonals of the object's
    * box, fading out; points outside are left out. [0, inf] */
   double context = 0.5;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <string>
+
+namespace pcl_sq::detail {
+
+using ColorCloud = pcl::PointCloud<pcl::PointXYZRGB>;
+
+/** \brief Rough mask of the largest object on a table, from an organized cloud in the
+ * camera's frame (y down).
+ *
+ * The table is the largest plane that faces upwards, within 50 degrees; looking down
+ * steeply, the largest plane of all. Objects are patches above it that depth jumps
+ * separate; walls, which reach the image's border, are passed over if there is anything
+ * else. \param[out] mask CV_8U of the cloud's size
+ * \param[out] why the reason of a failure, a sentence \return whether there is one */
+bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why);
+
+/** \brief Labels of GrabCut for a box that holds an object, from an organized cloud.
+ *
+ * The patch of connected depths, above the plane around the box if there is one, that
+ * fills most of the box's middle is probably the object, other depths probably not, and
+ * surely not where they are far from it. Pixels without depth follow their neighbours.
+ * \param[in] window part of the image around the box \param[out] labels CV_8U of the
+ * window's size: cv::GC_PR_FGD, GC_PR_BGD, GC_BGD
+ * \return false if no patch stands out */
+bool labelObjectInBox(const ColorCloud& cloud,
+                      const cv::Rect& box,
+                      const cv::Rect& window,
+                      cv::Mat& labels);
+
+/** \brief Rough mask of the patch of connected depths above the table under a pixel.
+ * \return false if there is none, or one that is no object: cut by the image's border,
+ * tiny, or a quarter of the image */
+bool findObjectAt(const ColorCloud& cloud, const cv::Point& pixel, cv::Mat& mask);
+
+/** \brief Share of a mask's points that lie about as far away as a patch's, 0 to 1; 1
+ * without points. \param[in] patch, mask CV_8U of the cloud's size */
+double
+shareAtDepthOf(const ColorCloud& cloud, const cv::Mat& patch, const cv::Mat& mask);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+namespace pcl_sq::detail {
+
+/** \brief Every step-th pixel of a window of an organized cloud: enough to find objects
+ * in it. */
+struct DepthGrid {
+  int step = 1, width = 0, height = 0;
+  cv::Rect window;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points; ///< width x height, NaN: none
+  pcl::Indices finite;                        ///< cells that have a point
+
+  DepthGrid(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const cv::Rect& window);
+  const pcl::PointXYZ& at(int u, int v) const {
+    return (*points)[static_cast<std::size_t>(v * width + u)];
+  }
+  float medianDepth() const; ///< \pre there is a finite cell
+  /** \brief A mask of cells as one of the window's pixels. */
+  cv::Mat toPixels(const cv::Mat& cells) const;
+};
+
+/** \brief n.p + d = 0, the camera on the positive side. */
+using DepthPlane = Eigen::Vector4f;
+
+/** \brief Largest plane among some cells whose normal is within \a angle of the
+ * camera's up (-y). \param[in] least inliers of a plane, as a share of the cells */
+bool findPlane(const DepthGrid& grid,
+               const pcl::Indices& cells,
+               double tolerance,
+               double angle,
+               double least,
+               DepthPlane& plane);
+
+/** \brief Patches of points, cut at depth jumps. \param[in] plane only points above it
+ * count; may be null \param[in] tolerance least height above the plane [m]
+ * \return CV_32S: 1 to count, 0 = none */
+cv::Mat labelPatches(const DepthGrid& grid,
+                     const DepthPlane* plane,
+                     float tolerance,
+                     int* count);
+
+} // namespace pcl_sq::detail
