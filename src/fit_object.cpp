@@ -4,6 +4,7 @@
 
 #include "object_piece.h"
 #include "option_check.h"
+#include "point_set.h"
 
 #include <algorithm>
 
@@ -17,6 +18,8 @@ constexpr double MIN_GAIN = 10.0; ///< of the score, for one more part
 constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs no cut
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
+constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
+constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
 /** \brief Things are no superquadrics: their surface's distance to the best one, over
  * the object's size. */
@@ -55,11 +58,11 @@ const Superquadric* axisOf(const Piece& piece) {
                                                           : nullptr;
 }
 
-void fitInFull(const PieceContext& context, Split& s) {
+void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
   // without an outline only many starts find a part of a full cloud
   const Effort effort = context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
-  fitPiece(context, s.first, effort);
-  fitPiece(context, s.second, effort, axisOf(s.first));
+  fitPiece(context, s.first, effort, axis);
+  fitPiece(context, s.second, effort, axis ? axis : axisOf(s.first));
   s.score = s.first.score + s.second.score;
   // the cut is only where the parts were looked for: the surfaces say what is whose
   const int rounds =
@@ -69,8 +72,8 @@ void fitInFull(const PieceContext& context, Split& s) {
     const std::size_t changed = assignPoints(context, {&next.first, &next.second});
     if (100 * changed < next.first.points.size() + next.second.points.size())
       break;
-    fitPiece(context, next.first, Effort::AGAIN);
-    fitPiece(context, next.second, Effort::AGAIN, axisOf(next.first));
+    fitPiece(context, next.first, Effort::AGAIN, axis);
+    fitPiece(context, next.second, Effort::AGAIN, axis ? axis : axisOf(next.first));
     next.score = next.first.score + next.second.score;
     if (!(next.score < s.score))
       break;
@@ -78,8 +81,11 @@ void fitInFull(const PieceContext& context, Split& s) {
   }
 }
 
-/** \brief The best way to cut a piece in two; score 1e300 if there is none. */
-Split bestSplit(const PieceContext& context, const Piece& piece) {
+/** \brief The best way to cut a piece in two; score 1e300 if there is none.
+ * \param[in] axis another part whose axis the two may share, or nullptr */
+Split bestSplit(const PieceContext& context,
+                const Piece& piece,
+                const Superquadric* axis) {
   std::vector<Split> splits;
   for (const Cut& cut : proposeCuts(context, piece)) {
     Split s = split(context, piece, cut);
@@ -91,11 +97,22 @@ Split bestSplit(const PieceContext& context, const Piece& piece) {
   });
   Split best;
   for (std::size_t i = 0; i < splits.size() && i < TRIED; ++i) {
-    fitInFull(context, splits[i]);
+    fitInFull(context, splits[i], axis);
     if (splits[i].score < best.score)
       best = splits[i];
   }
   return best;
+}
+
+/** \brief What a part's points leave open behind it, the whole object's may tell: no
+ * part reaches much farther from the camera than the one superquadric of all points. */
+SupportPlane backOf(const Superquadric& whole, const ObservedObject& observed) {
+  SupportPlane back;
+  back.normal = (whole.center - observed.camera.center).normalized();
+  back.offset = 0.0;
+  back.offset = back.residual(whole) + BACK_SLACK * observed.extent;
+  back.sigma = BACK_SIGMA * observed.extent;
+  return back;
 }
 
 /** \brief Merges pairs of parts while one explains them as well as two. */
@@ -126,24 +143,33 @@ void mergeParts(const PieceContext& context,
   }
 }
 
-/** \brief Lets the parts share the axis of the largest solid of revolution among them
- * where the data agree: what one part's points leave open, another's may tell. */
-void shareAxis(const PieceContext& context, std::vector<Piece>& pieces) {
+/** \brief The solid of revolution with the most points; the number of pieces if there
+ * is none. */
+std::size_t largestOfRevolution(const std::vector<Piece>& pieces) {
   std::size_t largest = pieces.size();
   for (std::size_t k = 0; k < pieces.size(); ++k)
     if (axisOf(pieces[k]) && (largest == pieces.size() ||
                               pieces[k].points.size() > pieces[largest].points.size()))
       largest = k;
-  if (largest == pieces.size())
-    return;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (k == largest || pieces[k].fit.chosen.on_axis)
-      continue;
-    Piece shared = pieces[k];
-    fitPiece(context, shared, Effort::AGAIN, axisOf(pieces[largest]));
-    if (shared.fit.chosen.on_axis || shared.score < pieces[k].score)
-      pieces[k] = std::move(shared);
-  }
+  return largest;
+}
+
+/** \brief Last fits of all parts. They share the axis of the largest solid of
+ * revolution among them where the data agree: what one part's points leave open,
+ * another's may tell. */
+void finish(const PieceContext& context, std::vector<Piece>& pieces) {
+  const std::size_t largest = largestOfRevolution(pieces);
+  const auto again = [&](std::size_t k, const Superquadric* axis) {
+    Piece next = pieces[k];
+    fitPiece(context, next, Effort::FINAL, axis);
+    if (next.score < pieces[k].score)
+      pieces[k] = std::move(next);
+  };
+  if (largest < pieces.size())
+    again(largest, nullptr);
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    if (k != largest)
+      again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
 } // namespace
@@ -159,10 +185,12 @@ bool ObjectFitOptions::isValid(std::string* why) const {
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
   ObjectFit fit;
+  if (spannedDimensions(observed.points) < 3)
+    return fit;
   const double noise = options.fit.noise > 0.0
                            ? options.fit.noise
                            : localNoise(observed.points, observed.effective_points);
-  PieceContext context{observed, options, 0.0};
+  PieceContext context{observed, options, 0.0, {}};
   std::vector<Piece> pieces(1, wholePiece(context));
   fitPiece(context, pieces[0], Effort::FULL);
   if (!pieces[0].fit.fit.ok())
@@ -177,19 +205,24 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                                                       : SENSOR_ERROR * observed.depth)
             .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
-    fit.misfit = pieces[0].fit.chosen.cost / observations(context, pieces[0]);
+    fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
     fit.single_bic = pieces[0].score;
+    if (observed.hasCamera())
+      context.limits.push_back(backOf(pieces[0].fit.fit.model, observed));
     while (int(pieces.size()) < wanted) {
       Split best;
       std::size_t which = 0;
       double gain = options.parts > 0 ? -1e300 : min_gain;
+      const std::size_t main = largestOfRevolution(pieces);
       for (std::size_t i = 0; i < pieces.size(); ++i) {
         Piece& piece = pieces[i];
-        const bool good =
-            piece.fit.chosen.cost < GOOD_FIT * observations(context, piece);
+        const bool good = piece.misfit < GOOD_FIT * observations(context, piece);
         if (piece.final || (good && options.parts == 0))
           continue;
-        Split s = bestSplit(context, piece);
+        Split s = bestSplit(context,
+                            piece,
+                            main < pieces.size() && main != i ? axisOf(pieces[main])
+                                                              : nullptr);
         if (piece.score - s.score > gain) {
           gain = piece.score - s.score;
           best = std::move(s);
@@ -204,7 +237,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     }
     if (options.parts == 0)
       mergeParts(context, pieces, min_gain);
-    shareAxis(context, pieces);
+    finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

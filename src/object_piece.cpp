@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_piece.h"
 
+#include "pcl_sq/line_intersection.h"
+#include "support_cost.h"
+
 #include <algorithm>
 
 namespace pcl_sq::detail {
@@ -13,6 +16,15 @@ constexpr std::size_t PIXEL_SAMPLE = 4000;
 /** \brief How well a cut says where a part ends, over the part's size: parts overlap.
  */
 constexpr double END_SIGMA = 0.25;
+/** \brief Largest cost of one contradiction: -2 ln of an outlier's density over the
+ * Gaussian's peak, as for the points. */
+constexpr double MAX_COST = 9.2;
+/** \brief How far parts stick out where the object is hollow, over its size: what is no
+ * superquadric cannot be followed closer. */
+constexpr double FREE_SIGMA = 0.03;
+int FREE_ROUNDS =
+    getenv("FR") ? atoi(getenv("FR")) : 3; ///< of holding the model off the free pixels
+constexpr double WORTH_A_ROUND = 6.0;      ///< cost of covered free pixels
 
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(columns.size()));
@@ -36,6 +48,50 @@ bool reachesTable(const PieceContext& context, const Eigen::Matrix3Xd& points) {
   std::nth_element(heights.begin(), low, heights.end());
   // the lowest visible points of a body lie somewhat above its bottom's far edge
   return *low < 0.18 * context.observed.extent + 3.0 * context.noise;
+}
+
+/** \brief Free pixels that a model covers. */
+struct Covered {
+  double cost = 0.0;
+  /** \brief Planes through the rays that part them from the body: a convex body misses
+   * a line exactly if there is one. */
+  std::vector<SupportPlane> limits;
+};
+
+Covered coveredFreePixels(const PieceContext& context, const Superquadric& model) {
+  const ObservedObject& o = context.observed;
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
+  const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+  Covered covered;
+  for (const Eigen::Vector2d& p : o.free_pixels) {
+    const Eigen::Vector3d ray = o.camera.ray(p);
+    LineInterval chord;
+    if (!intersectLineBox(model, o.camera.center, ray, chord) ||
+        !intersectLine(model, o.camera.center, ray, chord))
+      continue;
+    // the middle of the chord lies about where the ray comes nearest to the centre
+    const Eigen::Vector3d middle =
+        o.camera.center + 0.5 * (chord.enter + chord.leave) * ray;
+    SupportPlane limit;
+    limit.normal = model.rotation * model.logGaugeJacobian(middle).head<3>() * -1.0;
+    limit.normal -= limit.normal.dot(ray) * ray;
+    if (!(limit.normal.norm() > 1e-9))
+      continue;
+    limit.normal.normalize();
+    limit.offset = limit.normal.dot(middle);
+    limit.sigma = sigma / std::sqrt(o.free_weight);
+    const double z = limit.residual(model) / sigma;
+    covered.cost += o.free_weight * std::min(z * z, MAX_COST);
+    covered.limits.push_back(limit);
+  }
+  return covered;
+}
+
+double hingeCost(const std::vector<SupportPlane>& limits, const Superquadric& model) {
+  double cost = 0.0;
+  for (const SupportPlane& limit : limits)
+    cost += std::pow(std::max(0.0, limit.residual(model)) / limit.sigma, 2);
+  return cost;
 }
 
 } // namespace
@@ -116,18 +172,48 @@ void fitPiece(const PieceContext& context,
     options.choose_shape = false;
     options.starts = QUICK_STARTS;
   }
-  if (effort == Effort::AGAIN && piece.fit.fit.ok())
+  if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
     options.start = piece.fit.fit.model;
   SupportEvidence evidence = o.evidence(
       piece.contour, context.options.silhouette_lines, reachesTable(context, points));
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
-  piece.fit = fitWithSupports(points, evidence, options);
-  piece.score = 1e300;
-  if (piece.fit.fit.ok())
-    piece.score = piece.fit.chosen.cost +
-                  piece.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
-                  0.5 * double(evidence.silhouette.size());
+  evidence.limits.insert(
+      evidence.limits.end(), context.limits.begin(), context.limits.end());
+  const auto assess = [&](SupportFit fit, double hinges) {
+    Piece assessed;
+    assessed.fit = std::move(fit);
+    if (!assessed.fit.fit.ok())
+      return assessed;
+    assessed.misfit = assessed.fit.chosen.cost - hinges +
+                      coveredFreePixels(context, assessed.fit.fit.model).cost;
+    assessed.score =
+        assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
+        assessed.fit.chosen.parameters *
+            std::log(1.0 +
+                     (getenv("PB") ? options.effective_points : o.effective_points)) -
+        0.5 * double(evidence.silhouette.size());
+    return assessed;
+  };
+  Piece best = assess(fitWithSupports(points, evidence, options), 0.0);
+  const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
+  for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
+    const Covered covered = coveredFreePixels(context, best.fit.fit.model);
+    if (covered.cost < WORTH_A_ROUND)
+      break;
+    SupportEvidence more = evidence;
+    more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
+    options.start = best.fit.fit.model;
+    SupportFit next = fitWithSupports(points, more, options);
+    const double hinges = hingeCost(covered.limits, next.chosen.model);
+    Piece assessed = assess(std::move(next), hinges);
+    if (!(assessed.score < best.score))
+      break;
+    best = std::move(assessed);
+  }
+  piece.fit = std::move(best.fit);
+  piece.misfit = best.misfit;
+  piece.score = best.score;
 }
 
 std::size_t assignPoints(const PieceContext& context,

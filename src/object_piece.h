@@ -21,15 +21,17 @@ struct Piece {
   std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
   std::vector<SupportPlane> ends;      ///< where cuts end it, roughly
   SupportFit fit;
-  double score = 1e300; ///< smaller is better; pieces add up
-  bool final = false;   ///< no cut improved it
+  double misfit = 1e300; ///< cost of points, planes and free pixels
+  double score = 1e300;  ///< smaller is better; pieces add up
+  bool final = false;    ///< no cut improved it
 };
 
 /** \brief What all pieces of an object share. */
 struct PieceContext {
   const ObservedObject& observed;
   const ObjectFitOptions& options;
-  double noise; ///< of the points [m]
+  double noise;                     ///< of the points [m]
+  std::vector<SupportPlane> limits; ///< half-spaces that hold every part, roughly
 };
 
 /** \brief The whole object as one piece. */
@@ -45,7 +47,8 @@ std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 enum class Effort {
   QUICK, ///< general shape, few starts
   FULL,  ///< all shapes, all starts
-  AGAIN  ///< all shapes from the last fit
+  AGAIN, ///< all shapes from the last fit
+  FINAL  ///< the same, and held off the free pixels
 };
 
 /** \brief Fits a piece and scores it.

@@ -4,7 +4,12 @@
 #include "observe_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numeric>
 
 namespace pcl_sq::detail {
 
@@ -15,22 +20,82 @@ constexpr std::size_t NEIGHBOUR = 6;
 constexpr double LONELY = 2.5; ///< times the median distance to that neighbour
 constexpr std::size_t MAX_POINTS = 3000; ///< looked at and fitted
 
+/** \brief Brings the points into an order that depends on nothing but themselves and in
+ * which any of them are spread over the object: subsets are then the same whatever
+ * order they were given in. */
+void shuffle(const Observation& o, std::vector<int>& columns) {
+  const auto key = [&o](int column) {
+    std::uint64_t h = 0;
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t bits;
+      const float value = o.points(k, column);
+      std::memcpy(&bits, &value, sizeof bits);
+      h = (h ^ bits) * 0x9E3779B97F4A7C15ULL; // Fibonacci hashing
+      h ^= h >> 29;
+    }
+    return h;
+  };
+  std::vector<std::pair<std::uint64_t, int>> order;
+  for (const int c : columns)
+    order.emplace_back(key(c), c);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    columns[i] = order[i].second;
+}
+
+/** \brief Distance of each point to its NEIGHBOUR-th nearest one. */
+std::vector<float> neighbourDistances(const std::vector<Eigen::Vector3f>& points) {
+  const std::size_t n = points.size();
+  Eigen::Vector3f low = points[0], high = points[0];
+  for (const Eigen::Vector3f& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  // in order along the longest side, only points nearby in it need a look
+  int axis;
+  (high - low).maxCoeff(&axis);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+    return points[i][axis] != points[k][axis] ? points[i][axis] < points[k][axis]
+                                              : i < k;
+  });
+  std::vector<float> distance(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3f& p = points[order[i]];
+    std::array<float, NEIGHBOUR> nearest; // ascending squares
+    nearest.fill(std::numeric_limits<float>::max());
+    const auto look = [&](std::size_t k) {
+      const Eigen::Vector3f d = points[order[k]] - p;
+      if (d[axis] * d[axis] > nearest.back())
+        return false;
+      const float square = d.squaredNorm();
+      const auto place = std::upper_bound(nearest.begin(), nearest.end(), square);
+      if (place != nearest.end()) {
+        std::copy_backward(place, nearest.end() - 1, nearest.end());
+        *place = square;
+      }
+      return true;
+    };
+    for (std::size_t k = i; k > 0 && look(k - 1); --k) {
+    }
+    for (std::size_t k = i + 1; k < n && look(k); ++k) {
+    }
+    distance[order[i]] = std::sqrt(nearest.back());
+  }
+  return distance;
+}
+
 /** \brief Takes out the points whose neighbours are far: a single one beyond the rim
  * would spoil the outline. */
 void dropLonely(const Observation& o, std::vector<int>& columns) {
   const std::size_t n = columns.size();
   if (n < 10 * NEIGHBOUR)
     return;
-  std::vector<float> distance(n);
-  std::vector<float> near;
-  for (std::size_t i = 0; i < n; ++i) {
-    near.clear();
-    for (std::size_t k = 0; k < n; ++k)
-      near.push_back(
-          (o.points.col(columns[k]) - o.points.col(columns[i])).squaredNorm());
-    std::nth_element(near.begin(), near.begin() + NEIGHBOUR, near.end());
-    distance[i] = std::sqrt(near[NEIGHBOUR]);
-  }
+  std::vector<Eigen::Vector3f> points(n);
+  for (std::size_t i = 0; i < n; ++i)
+    points[i] = o.points.col(columns[i]);
+  const std::vector<float> distance = neighbourDistances(points);
   std::vector<float> sorted = distance;
   std::nth_element(
       sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
@@ -59,13 +124,9 @@ bool observeBare(Observation& o, std::string& why) {
     why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
     return false;
   }
-  if (columns.size() > MAX_POINTS) {
-    std::vector<int> some;
-    const std::size_t step = (columns.size() + MAX_POINTS - 1) / MAX_POINTS;
-    for (std::size_t i = 0; i < columns.size(); i += step)
-      some.push_back(columns[i]);
-    columns.swap(some);
-  }
+  shuffle(o, columns);
+  if (columns.size() > MAX_POINTS)
+    columns.resize(MAX_POINTS);
   dropLonely(o, columns);
   out.columns = columns;
   out.points.resize(3, static_cast<Eigen::Index>(columns.size()));

@@ -18,6 +18,8 @@ constexpr int RIM_OF_MASK = 1;    ///< pixels beside a mask's outline that are l
 constexpr int RIM_OF_DEPTH = 3;   ///< the same for the fattened rim of stereo matching
 constexpr double FATTENING = 1.5; ///< expected dilation of an outline from depth [px]
 constexpr int OCCLUDER_REACH = 6; ///< pixels searched beyond the outline
+constexpr int FREE_PIXELS = 500;  ///< about so many around the object are looked at
+constexpr int FREE_MARGIN = 2;    ///< pixels beside the outline that may be either's
 constexpr int PLANES = 3;         ///< largest ones among which the table is
 
 double median(std::vector<double>& values) {
@@ -169,6 +171,34 @@ bool occluded(const Observation& o, int x, int y) {
   return median(other) < mine - std::max(0.03 * mine, 0.3 * o.out.extent);
 }
 
+/** \brief Pixels beside the object's through which the background is seen. */
+void findFreePixels(Observation& o, const Bounds& b, bool has_mask) {
+  const int margin = FREE_MARGIN + (has_mask ? 0 : RIM_OF_DEPTH);
+  const int reach = std::max(8, (b.x1 - b.x0 + b.y1 - b.y0) / 16);
+  const double area = double(b.x1 - b.x0 + 2 * reach) * double(b.y1 - b.y0 + 2 * reach);
+  const int step = std::max(1, int(std::sqrt(area / FREE_PIXELS)));
+  o.out.free_weight = std::min(1.0, std::pow(step / o.view.correlation, 2));
+  const auto beside = [&](int x, int y) {
+    for (int dy = -margin; dy <= margin; ++dy)
+      for (int dx = -margin; dx <= margin; ++dx)
+        if (o.out.pixels(x + dx, y + dy))
+          return false;
+    return true;
+  };
+  const int x1 = std::min(o.width - 1, b.x1 + reach);
+  const int y1 = std::min(o.height - 1, b.y1 + reach);
+  for (int y = std::max(0, b.y0 - reach); y <= y1; y += step)
+    for (int x = std::max(0, b.x0 - reach); x <= x1; x += step) {
+      const int c = y * o.width + x;
+      // without a mask only a measured background counts; an occluder never does
+      const bool known = o.finite(c);
+      if ((!known && !has_mask) || !beside(x, y))
+        continue;
+      if (!known || o.out.camera.depthOf(o.at(c)) > o.out.depth)
+        o.out.free_pixels.emplace_back(x, y);
+    }
+}
+
 void choosePoints(Observation& o, const Bounds& b, int rim) {
   const double area = double(o.out.pixels.count());
   const int step =
@@ -275,6 +305,7 @@ bool observeImage(Observation& o, std::string& why) {
   else if (!out.table && o.view.find_table)
     findTable(o, b);
   checkTable(out);
+  findFreePixels(o, b, has_mask);
   out.outline_sigma = has_mask ? o.view.mask_sigma : 1.5;
   out.outline_dilation = has_mask ? o.view.mask_dilation : 1.5;
   out.outline_offset = has_mask ? 0.0 : FATTENING;

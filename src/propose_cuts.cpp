@@ -15,30 +15,22 @@ constexpr int BINS = 40;
 constexpr int MARGIN = 2;   ///< bins at either end in which no cut makes sense
 constexpr int WINDOW = 2;   ///< bins on each side whose mean widths are compared
 constexpr int PER_AXIS = 3; ///< best jumps of one profile
+constexpr double SMALLEST_JUMP = 0.05; ///< over the largest width
+constexpr double SMALLEST_GAP = 0.25;  ///< over the largest number of pixels
 
 /** \brief One point on its way along an axis. */
 struct Station {
   double along, across;
 };
 
-/** \brief Positions of the largest relative jumps of the width. */
-std::vector<double> widthJumps(const std::vector<Station>& stations) {
-  std::vector<double> jumps;
-  double low = 1e300, high = -1e300;
-  for (const Station& s : stations) {
-    low = std::min(low, s.along);
-    high = std::max(high, s.along);
-  }
-  if (!(high > low))
-    return jumps;
-  std::vector<std::vector<double>> across(BINS);
-  for (const Station& s : stations)
-    across[std::min(BINS - 1, int(BINS * (s.along - low) / (high - low)))].push_back(
-        s.across);
-  std::vector<double> width(BINS, 0.0);
-  double widest = 0.0;
+/** \brief A profile along an axis: one value per bin. */
+using Profile = std::vector<double>;
+
+/** \brief Widths of the bins; a bin with hardly a point has its neighbour's. */
+Profile widths(const std::vector<std::vector<double>>& across) {
+  Profile width(BINS, 0.0);
   for (int b = 0; b < BINS; ++b) {
-    std::vector<double>& v = across[b];
+    std::vector<double> v = across[std::size_t(b)];
     if (v.size() < 3) {
       width[b] = b > 0 ? width[b - 1] : 0.0;
       continue;
@@ -46,33 +38,69 @@ std::vector<double> widthJumps(const std::vector<Station>& stations) {
     std::sort(v.begin(), v.end());
     const std::size_t cut = v.size() / 20;
     width[b] = v[v.size() - 1 - cut] - v[cut];
-    widest = std::max(widest, width[b]);
   }
+  return width;
+}
+
+/** \brief Points in the bins: a hole shows here, not in the width. */
+Profile counts(const std::vector<std::vector<double>>& across) {
+  Profile count;
+  for (const std::vector<double>& v : across)
+    count.push_back(double(v.size()));
+  return count;
+}
+
+/** \brief Adds the bins at whose lower end a profile jumps most. */
+void addJumps(const Profile& profile, double smallest, std::vector<int>& taken) {
   std::vector<std::pair<double, int>> strength;
   for (int b = MARGIN; b <= BINS - MARGIN; ++b) {
     double before = 0.0, after = 0.0;
     int n = 0, m = 0;
     for (int k = 1; k <= WINDOW; ++k) {
       if (b - k >= 0)
-        before += width[b - k], ++n;
+        before += profile[b - k], ++n;
       if (b + k - 1 < BINS)
-        after += width[b + k - 1], ++m;
+        after += profile[b + k - 1], ++m;
     }
     strength.emplace_back(std::abs(before / n - after / m), b);
   }
   std::sort(strength.rbegin(), strength.rend());
-  std::vector<int> taken;
+  const double limit = smallest * *std::max_element(profile.begin(), profile.end());
+  int added = 0;
   for (const auto& [value, b] : strength) {
-    if (int(taken.size()) == PER_AXIS || value < 0.05 * widest)
+    if (added == PER_AXIS || value < limit)
       break;
     if (std::all_of(taken.begin(), taken.end(), [b = b](int t) {
           return std::abs(t - b) > WINDOW;
-        }))
+        })) {
       taken.push_back(b);
+      ++added;
+    }
   }
+}
+
+/** \brief Positions of the largest relative jumps of the width and, for an outline, of
+ * the number of pixels. */
+std::vector<double> jumps(const std::vector<Station>& stations, bool outline) {
+  std::vector<double> positions;
+  double low = 1e300, high = -1e300;
+  for (const Station& s : stations) {
+    low = std::min(low, s.along);
+    high = std::max(high, s.along);
+  }
+  if (!(high > low))
+    return positions;
+  std::vector<std::vector<double>> across(BINS);
+  for (const Station& s : stations)
+    across[std::min(BINS - 1, int(BINS * (s.along - low) / (high - low)))].push_back(
+        s.across);
+  std::vector<int> taken;
+  addJumps(widths(across), SMALLEST_JUMP, taken);
+  if (outline)
+    addJumps(counts(across), SMALLEST_GAP, taken);
   for (const int b : taken)
-    jumps.push_back(low + (high - low) * b / BINS);
-  return jumps;
+    positions.push_back(low + (high - low) * b / BINS);
+  return positions;
 }
 
 /** \brief Cuts along lines of the image. */
@@ -115,7 +143,7 @@ std::vector<Cut> imageCuts(const PieceContext& context, const Piece& piece) {
     const Eigen::Vector2d across(-axis.y(), axis.x());
     for (std::size_t i = 0; i < stations.size(); ++i)
       stations[i] = {axis.dot(piece.pixels[i]), across.dot(piece.pixels[i])};
-    for (const double position : widthJumps(stations)) {
+    for (const double position : jumps(stations, true)) {
       SilhouetteLine line;
       line.direction = axis;
       line.offset = position;
@@ -159,7 +187,7 @@ std::vector<Cut> spaceCuts(const PieceContext& context, const Piece& piece) {
           const Eigen::Vector3d p = points.col(piece.points[i]) - mean;
           stations[i] = {axis.dot(p), across.dot(p)};
         }
-        for (const double position : widthJumps(stations))
+        for (const double position : jumps(stations, false))
           positions.push_back(position);
       }
       std::sort(positions.begin(), positions.end());

@@ -9,6 +9,11 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Twice the logarithm of the prior odds, about 400 to 1, that a part shares the
+ * axis of the solid of revolution beside it: things are turned on lathes, wheels and
+ * moulds. */
+inline constexpr double SHARED_AXIS = 12.0;
+
 /** \brief Squared, weighted support residuals, in the frame of the points.
  *
  * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is

@@ -89,11 +89,6 @@ bool flat(const Superquadric& m) {
   return std::abs(std::log(m.semi_axes[0] / m.semi_axes[1])) > 0.4;
 }
 
-/** \brief Twice the logarithm of the prior odds, about 400 to 1, that a part shares the
- * axis of the solid of revolution beside it: things are turned on lathes, wheels and
- * moulds. */
-constexpr double SHARED_AXIS = 12.0;
-
 class Families {
 public:
   Families(const SupportProblem& problem, double sigma)

@@ -11,6 +11,7 @@
 
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl_sq {
@@ -176,6 +177,7 @@ bool ObjectSurfaceEstimation<PointT>::fitObject(MultiSuperquadric& model) {
     for (std::size_t i = 0; i < fit.labels.size(); ++i)
       if (fit.labels[i] == static_cast<int>(k))
         part.indices.indices.push_back(report_.view.columns[i]);
+    std::sort(part.indices.indices.begin(), part.indices.indices.end());
   }
   return true;
 }

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/fit_object.h"
+
+#include "view_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+namespace {
+
+ObjectFit fitScene(const ViewScene& scene, const ObjectFitOptions& options = {}) {
+  ViewOptions view;
+  view.mask = scene.mask;
+  view.camera = scene.camera;
+  ObservedObject observed;
+  std::string why;
+  EXPECT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed, &why))
+      << why;
+  return fitObject(observed, options);
+}
+
+/** \brief A camera with more pixels, for objects with thin parts. */
+ViewScene fineScene() {
+  ViewScene scene;
+  scene.width = 240;
+  scene.height = 180;
+  scene.camera.fx = scene.camera.fy = 450.0;
+  scene.camera.cx = 119.5;
+  scene.camera.cy = 89.5;
+  return scene;
+}
+
+ViewScene bottleScene() {
+  ViewScene scene = fineScene();
+  scene.addUpright({0.035, 0.035, 0.06}, 0.2, 1.0, 0.06);
+  scene.addUpright({0.013, 0.013, 0.03}, 0.2, 1.0, 0.14);
+  scene.render(0.001);
+  return scene;
+}
+
+/** \brief Share of the volume of two unions that both have. */
+double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
+  Eigen::AlignedBox3d box = a.boundingBox();
+  box.extend(b.boundingBox());
+  Random random(10);
+  int both = 0, any = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d at(
+        random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    const Eigen::Vector3d p = box.min() + box.sizes().cwiseProduct(at);
+    both += a.contains(p) && b.contains(p);
+    any += a.contains(p) || b.contains(p);
+  }
+  return double(both) / any;
+}
+
+/** \brief Points all around the outer surface of a union, with noise [m]. */
+Eigen::Matrix3Xf allRound(const MultiSuperquadric& object, double noise) {
+  Random random(12);
+  std::vector<Eigen::Vector3f> surface;
+  for (std::size_t k = 0; k < object.size(); ++k)
+    for (const Eigen::Vector3d& p : sampleUniform(object.parts[k], 1200, unsigned(k))) {
+      bool inner = false;
+      for (std::size_t j = 0; j < object.size(); ++j)
+        inner = inner || (j != k && object.parts[j].gauge(p) < 1.0);
+      const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
+      if (!inner)
+        surface.push_back((p + noise * error).cast<float>());
+    }
+  Eigen::Matrix3Xf points(3, Eigen::Index(surface.size()));
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    points.col(Eigen::Index(i)) = surface[i];
+  return points;
+}
+
+MultiSuperquadric dumbbell() {
+  MultiSuperquadric object;
+  for (const double z : {-0.08, 0.0, 0.08}) {
+    Superquadric s;
+    s.center = {0.1, 0.2, 0.7 + z};
+    s.semi_axes = z == 0.0 ? Eigen::Vector3d(0.012, 0.012, 0.08)
+                           : Eigen::Vector3d(0.035, 0.035, 0.035);
+    s.epsilon1 = z == 0.0 ? 0.2 : 1.0;
+    object.parts.push_back(s);
+  }
+  return object;
+}
+
+} // namespace
+
+TEST(FitObject, PlainCanStaysOnePart) {
+  ViewScene scene;
+  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
+  scene.render(0.001);
+  const ObjectFit fit = fitScene(scene);
+  ASSERT_EQ(fit.model.size(), 1u);
+  EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::ROTATIONAL);
+  EXPECT_GT(overlap(fit.model, scene.object), 0.93);
+}
+
+TEST(FitObject, BottleBecomesBodyAndNeckOnOneAxis) {
+  const ViewScene scene = bottleScene();
+  const ObjectFit fit = fitScene(scene);
+  ASSERT_EQ(fit.model.size(), 2u);
+  EXPECT_GT(overlap(fit.model, scene.object), 0.9);
+  for (const SupportFit& part : fit.parts)
+    EXPECT_EQ(part.chosen.shape, ShapeClass::ROTATIONAL);
+  const Eigen::Vector3d axis = fit.model.parts[0].rotation.col(2);
+  const Eigen::Vector3d apart = fit.model.parts[1].center - fit.model.parts[0].center;
+  EXPECT_LT(apart.cross(axis).norm(), 0.004);
+}
+
+TEST(FitObject, OneSuperquadricIsGivenWhereOnlyOneIsAllowed) {
+  ObjectFitOptions options;
+  options.max_parts = 1;
+  const ViewScene scene = bottleScene();
+  const ObjectFit single = fitScene(scene, options);
+  ASSERT_EQ(single.model.size(), 1u);
+  EXPECT_LT(overlap(single.model, scene.object),
+            overlap(fitScene(scene).model, scene.object));
+}
+
+TEST(FitObject, RodSeenFromTheSideIsNoPlateSeenEdgeOn) {
+  ViewScene scene = fineScene();
+  scene.addUpright({0.012, 0.012, 0.1}, 0.3, 1.0, 0.1);
+  scene.render(0.001);
+  ViewOptions view;
+  view.mask = scene.mask;
+  view.camera = scene.camera;
+  view.find_table = false; // which would tell as well
+  ObservedObject observed;
+  ASSERT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed));
+  const ObjectFit fit = fitObject(observed);
+  ASSERT_EQ(fit.model.size(), 1u);
+  const Superquadric& rod = fit.model.parts[0];
+  EXPECT_LT(rod.support((rod.center - observed.camera.center).normalized()), 0.06);
+}
+
+TEST(FitObject, LabelsSayWhichPartEachPointBelongsTo) {
+  ViewOptions view;
+  const ViewScene scene = bottleScene();
+  view.mask = scene.mask;
+  ObservedObject observed;
+  ASSERT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed));
+  const ObjectFit fit = fitObject(observed);
+  ASSERT_EQ(fit.labels.size(), std::size_t(observed.points.cols()));
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < fit.labels.size(); ++i) {
+    ASSERT_GE(fit.labels[i], 0);
+    ASSERT_LT(fit.labels[i], int(fit.model.size()));
+    const auto distance = [&](int part) {
+      return std::abs(fit.model.parts[std::size_t(part)].footPointDistance(
+          observed.points.col(Eigen::Index(i))));
+    };
+    nearest += distance(fit.labels[i]) <= distance(1 - fit.labels[i]) + 0.003;
+  }
+  EXPECT_GT(double(nearest), 0.97 * double(fit.labels.size()));
+}
+
+TEST(FitObject, FullCloudOfADumbbellIsThreePartsWithoutAnyView) {
+  const MultiSuperquadric truth = dumbbell();
+  const Eigen::Matrix3Xf points = allRound(truth, 0.0007);
+  ObservedObject observed;
+  ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
+  const ObjectFit fit = fitObject(observed);
+  EXPECT_EQ(fit.model.size(), 3u);
+  EXPECT_GT(overlap(fit.model, truth), 0.9);
+  for (const int parts : {1, 2}) {
+    ObjectFitOptions forced;
+    forced.parts = parts;
+    EXPECT_EQ(fitObject(observed, forced).model.size(), std::size_t(parts));
+  }
+}
+
+TEST(FitObject, OrderOfThePointsDoesNotMatterMuch) {
+  const Eigen::Matrix3Xf points = allRound(dumbbell(), 0.0007);
+  const Eigen::Matrix3Xf backwards = points.rowwise().reverse();
+  ObservedObject a, b;
+  ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, a));
+  ASSERT_TRUE(observeObject(backwards, int(points.cols()), 1, {}, {}, b));
+  const ObjectFit one = fitObject(a), other = fitObject(b);
+  ASSERT_EQ(one.model.size(), other.model.size());
+  EXPECT_GT(overlap(one.model, other.model), 0.97);
+}
+
+TEST(FitObject, SettingsOutOfRangeAreRefusedWithASentence) {
+  ObjectFitOptions options;
+  std::string why;
+  EXPECT_TRUE(options.isValid(&why)) << why;
+  options.max_parts = 0;
+  EXPECT_FALSE(options.isValid(&why));
+  EXPECT_NE(why.find("max_parts"), std::string::npos);
+  options = {};
+  options.silhouette_lines = 7;
+  EXPECT_FALSE(options.isValid());
+}
+
+TEST(FitObject, PointsThatSpanNoVolumeGiveNoModel) {
+  ObservedObject observed;
+  observed.points = Eigen::Matrix3Xd::Zero(3, 100);
+  EXPECT_TRUE(fitObject(observed).model.empty());
+  observed.points.row(0) = Eigen::RowVectorXd::LinSpaced(100, 0.0, 1.0);
+  EXPECT_TRUE(fitObject(observed).model.empty());
+}
