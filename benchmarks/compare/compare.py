@@ -61,32 +61,40 @@ def reference(generators):
 
 
 def figure(path, ours, peers):
-    """Mean IoU against time, ours and EMS, one arrow a set."""
+    """Mean IoU against time, ours and EMS, one line a set."""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
-    pyplot.figure(figsize=(8, 5))
-    first = True
+    pyplot.figure(figsize=(9, 6))
+    points = []
     for name, result in ours.items():
         match = re.match(r"([.\d]+) / .* / ([.\d]+) ms", peers.get(name, [""])[0])
-        if not match:
-            continue
-        iou, ms = float(match.group(1)), float(match.group(2))
-        pyplot.plot([result["ms"], ms], [result["iou"], iou], color="0.8", zorder=1)
+        if match:
+            points.append((float(match.group(2)), float(match.group(1)), name, result))
+    labelled = []
+    for ms, iou, name, result in sorted(points, key=lambda p: p[:3]):
+        first = not labelled
+        pyplot.plot([result["ms"], ms], [result["iou"], iou], color="0.85", zorder=1)
         pyplot.scatter(ms, iou, color="tab:orange", zorder=2,
                        label="EMS (Liu et al. 2022)" if first else None)
         pyplot.scatter(result["ms"], result["iou"], color="tab:blue", zorder=2,
                        label="pcl_sq, full fit" if first else None)
-        pyplot.annotate(name, (ms, iou), fontsize=8, xytext=(5, -3),
-                        textcoords="offset points")
-        first = False
+        # a label goes up until it stands clear of the others
+        height = iou
+        while any(ms < 1.6 * m and m < 1.6 * ms and abs(height - h) < 0.009
+                  for m, h in labelled):
+            height += 0.0092
+        labelled.append((ms, height))
+        pyplot.text(1.07 * ms, height, name, fontsize=8, verticalalignment="center")
     pyplot.xscale("log")
+    pyplot.xlim(0.4, 1000)
+    pyplot.ylim(None, 1.04)
     pyplot.xlabel("time of a fit, one thread [ms]")
     pyplot.ylabel("mean volumetric IoU")
     pyplot.grid(alpha=0.3)
     pyplot.legend(loc="lower left")
     pyplot.tight_layout()
-    pyplot.savefig(path, dpi=150)
+    pyplot.savefig(path, dpi=110)
 
 
 def main():

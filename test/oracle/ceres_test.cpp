@@ -84,10 +84,16 @@ Superquadric ceresMinimum(const Superquadric& start,
 }
 
 struct Case {
+  const char* name;
   double noise;
   bool partial; ///< only what lies on one side of the centre
   double off;   ///< largest distance of the start from the truth in each parameter
 };
+
+/** \brief For the test's name; bytes would be printed otherwise. */
+void PrintTo(const Case& c, std::ostream* stream) {
+  *stream << c.name;
+}
 
 class CeresOracle : public testing::TestWithParam<Case> {};
 
@@ -139,11 +145,13 @@ TEST_P(CeresOracle, OurMinimumIsNotWorseFromTheSameStart) {
   EXPECT_GE(same, 0.9 * TRIALS) << "an oracle that finds no minimum proves nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(FullAndPartial,
-                         CeresOracle,
-                         testing::Values(Case{0.0, false, 0.1},
-                                         Case{0.03, false, 0.1},
-                                         Case{0.03, false, 0.3},
-                                         Case{0.0, true, 0.1},
-                                         Case{0.01, true, 0.1},
-                                         Case{0.03, true, 0.2}));
+INSTANTIATE_TEST_SUITE_P(
+    FullAndPartial,
+    CeresOracle,
+    testing::Values(Case{"Exact", 0.0, false, 0.1},
+                    Case{"Noisy", 0.03, false, 0.1},
+                    Case{"NoisyFromFarAway", 0.03, false, 0.3},
+                    Case{"PartialExact", 0.0, true, 0.1},
+                    Case{"PartialWithLittleNoise", 0.01, true, 0.1},
+                    Case{"PartialNoisyFromFarAway", 0.03, true, 0.2}),
+    [](const testing::TestParamInfo<Case>& tested) { return tested.param.name; });
