@@ -160,6 +160,8 @@ std::size_t largestOfRevolution(const std::vector<Piece>& pieces) {
 void finish(const PieceContext& context, std::vector<Piece>& pieces) {
   const std::size_t largest = largestOfRevolution(pieces);
   const auto again = [&](std::size_t k, const Superquadric* axis) {
+    if (!axis && !coversFreePixels(pieces[k]))
+      return;
     Piece next = pieces[k];
     fitPiece(context, next, Effort::FINAL, axis);
     if (next.score < pieces[k].score)

@@ -185,8 +185,8 @@ void fitPiece(const PieceContext& context,
     assessed.fit = std::move(fit);
     if (!assessed.fit.fit.ok())
       return assessed;
-    assessed.misfit = assessed.fit.chosen.cost - hinges +
-                      coveredFreePixels(context, assessed.fit.fit.model).cost;
+    assessed.covered = coveredFreePixels(context, assessed.fit.fit.model).cost;
+    assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
         assessed.fit.chosen.parameters *
@@ -198,9 +198,9 @@ void fitPiece(const PieceContext& context,
   Piece best = assess(fitWithSupports(points, evidence, options), 0.0);
   const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
-    const Covered covered = coveredFreePixels(context, best.fit.fit.model);
-    if (covered.cost < WORTH_A_ROUND)
+    if (!coversFreePixels(best))
       break;
+    const Covered covered = coveredFreePixels(context, best.fit.fit.model);
     SupportEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
     options.start = best.fit.fit.model;
@@ -212,8 +212,13 @@ void fitPiece(const PieceContext& context,
     best = std::move(assessed);
   }
   piece.fit = std::move(best.fit);
+  piece.covered = best.covered;
   piece.misfit = best.misfit;
   piece.score = best.score;
+}
+
+bool coversFreePixels(const Piece& piece) {
+  return piece.covered >= WORTH_A_ROUND;
 }
 
 std::size_t assignPoints(const PieceContext& context,

@@ -21,6 +21,7 @@ struct Piece {
   std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
   std::vector<SupportPlane> ends;      ///< where cuts end it, roughly
   SupportFit fit;
+  double covered = 0.0;  ///< cost of the free pixels that it covers
   double misfit = 1e300; ///< cost of points, planes and free pixels
   double score = 1e300;  ///< smaller is better; pieces add up
   bool final = false;    ///< no cut improved it
@@ -57,6 +58,9 @@ void fitPiece(const PieceContext& context,
               Piece& piece,
               Effort effort,
               const Superquadric* coaxial = nullptr);
+
+/** \brief Whether holding a piece off the free pixels is worth a fit. */
+[[nodiscard]] bool coversFreePixels(const Piece& piece);
 
 /** \brief Gives each point to the piece with the nearest surface. \return how many
  * points changed their piece */
