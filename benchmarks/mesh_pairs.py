@@ -15,13 +15,35 @@ import argparse
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
 
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from grasp_mesh_scenes import matrix, read_mesh
+
+def matrix(text, name):
+    block = re.search(name + r":.*?data: \[(.*?)\]", text, re.S).group(1)
+    return np.array([float(x) for x in block.split(",")])
+
+
+def read_mesh(path):
+    if path.suffix == ".stl":
+        data = path.read_bytes()
+        count = struct.unpack("<I", data[80:84])[0]
+        record = np.frombuffer(data[84:84 + 50 * count],
+                               np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")]))
+        return record["v"].reshape(-1, 3).astype(float), np.arange(3 * count).reshape(-1, 3)
+    vertices, faces = [], []
+    for line in path.read_text().splitlines():
+        word = line.split()
+        if word and word[0] == "v":
+            vertices.append([float(x) for x in word[1:4]])
+        elif word and word[0] == "f":
+            index = [int(w.split("/")[0]) - 1 for w in word[1:]]
+            faces += [[index[0], index[i], index[i + 1]] for i in range(1, len(index) - 1)]
+    return np.array(vertices), np.array(faces)
 
 
 def rotation(vector):

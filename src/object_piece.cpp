@@ -22,9 +22,8 @@ constexpr double MAX_COST = 9.2;
 /** \brief How far parts stick out where the object is hollow, over its size: what is no
  * superquadric cannot be followed closer. */
 constexpr double FREE_SIGMA = 0.03;
-int FREE_ROUNDS =
-    getenv("FR") ? atoi(getenv("FR")) : 3; ///< of holding the model off the free pixels
-constexpr double WORTH_A_ROUND = 6.0;      ///< cost of covered free pixels
+constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
+constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
 
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(columns.size()));
@@ -189,9 +188,7 @@ void fitPiece(const PieceContext& context,
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
-        assessed.fit.chosen.parameters *
-            std::log(1.0 +
-                     (getenv("PB") ? options.effective_points : o.effective_points)) -
+        assessed.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
         0.5 * double(evidence.silhouette.size());
     return assessed;
   };
