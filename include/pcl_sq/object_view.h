@@ -62,14 +62,14 @@ struct PCL_SQ_EXPORTS ObservedObject {
   double outline_dilation = 0.35; ///< sigma [px]
   double outline_offset = 0.0;    ///< expected dilation [px]
   std::optional<TableModel> table;
-  double effective_points = 0.0;  ///< independent ones among the points
-  double depth = 1.0;             ///< of the object [m]
-  double extent = 0.0;            ///< half diagonal of the points' box [m]
-  CellMask pixels;                ///< the object's, of the real or virtual image
+  double effective_points = 0.0; ///< independent ones among the points
+  double depth = 1.0;            ///< of the object [m]
+  double extent = 0.0;           ///< half diagonal of the points' box [m]
+  CellMask pixels;               ///< the object's, of the real or virtual image
   /** \brief Pixels around the object through which the background is seen: no part of
    * the object crosses their rays. A coarse grid of them. */
   std::vector<Eigen::Vector2d> free_pixels;
-  double free_weight = 0.0; ///< independent observations per free pixel
+  double free_weight = 0.0;       ///< independent observations per free pixel
   std::vector<std::string> notes; ///< fall-backs, one sentence each
 
   bool hasCamera() const { return outline != OutlineSource::NONE; }
