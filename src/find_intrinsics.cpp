@@ -6,7 +6,7 @@
 
 namespace pcl_sq {
 
-bool findIntrinsics(const Eigen::Matrix3Xf& points,
+bool findIntrinsics(const CloudPoints& points,
                     int width,
                     int height,
                     PinholeCamera& camera) {

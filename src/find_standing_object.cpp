@@ -20,7 +20,7 @@ struct Region {
 /** \brief Regions of pixels that are set, connected without a jump in depth. */
 class Regions {
 public:
-  Regions(const Eigen::Matrix3Xf& points, CellMask above)
+  Regions(const CloudPoints& points, CellMask above)
       : points_(points), left_(std::move(above)) {}
 
   /** \brief The next region; empty when there is none left. */
@@ -57,14 +57,14 @@ private:
       }
   }
 
-  const Eigen::Matrix3Xf& points_;
+  const CloudPoints& points_;
   CellMask left_;
   std::size_t at_ = 0;
 };
 
 } // namespace
 
-bool findStandingObject(const Eigen::Matrix3Xf& points,
+bool findStandingObject(const CloudPoints& points,
                         int width,
                         int height,
                         std::optional<TableModel>& table,

@@ -4,6 +4,7 @@
 
 #include "object_piece.h"
 #include "option_check.h"
+#include "parallel_for.h"
 #include "point_set.h"
 
 #include <algorithm>
@@ -86,21 +87,27 @@ void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) 
 Split bestSplit(const PieceContext& context,
                 const Piece& piece,
                 const Superquadric* axis) {
-  std::vector<Split> splits;
-  for (const Cut& cut : proposeCuts(context, piece)) {
-    Split s = split(context, piece, cut);
-    if (s.score < 1e299)
-      splits.push_back(std::move(s));
-  }
+  const std::vector<Cut> cuts = proposeCuts(context, piece);
+  std::vector<Split> splits(cuts.size());
+  const unsigned int threads = context.options.fit.threads;
+  parallelFor(cuts.size(), threads, [&](std::size_t i) {
+    splits[i] = split(context, piece, cuts[i]);
+  });
+  splits.erase(std::remove_if(splits.begin(),
+                              splits.end(),
+                              [](const Split& s) { return s.score > 1e299; }),
+               splits.end());
   std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
     return a.score < b.score;
   });
-  Split best;
-  for (std::size_t i = 0; i < splits.size() && i < TRIED; ++i) {
+  splits.resize(std::min(splits.size(), TRIED));
+  parallelFor(splits.size(), threads, [&](std::size_t i) {
     fitInFull(context, splits[i], axis);
-    if (splits[i].score < best.score)
-      best = splits[i];
-  }
+  });
+  Split best;
+  for (Split& s : splits)
+    if (s.score < best.score)
+      best = std::move(s);
   return best;
 }
 

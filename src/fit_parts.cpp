@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/fit_parts.h"
 
+#include "parallel_for.h"
 #include "point_set.h"
 #include "stopwatch.h"
 
 #include <algorithm>
-#include <exception>
-
-#include <omp.h>
 
 namespace pcl_sq {
 
@@ -70,21 +68,11 @@ fitParts(const std::vector<RoiBox>& regions,
          const EstimationOptions& options,
          unsigned int threads) {
   std::vector<PartFit> fits(regions.size());
-  const int n_threads = threads > 0 ? int(threads) : omp_get_num_procs();
-  std::exception_ptr error; // must not leave the parallel region by itself
-#pragma omp parallel for schedule(dynamic) num_threads(n_threads)
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    try {
-      const detail::Stopwatch watch;
-      fits[i].summary = fitPart(regions[i], object_rotation, points(i), options);
-      fits[i].milliseconds = watch.milliseconds();
-    } catch (...) {
-#pragma omp critical
-      error = std::current_exception();
-    }
-  }
-  if (error)
-    std::rethrow_exception(error);
+  detail::parallelFor(regions.size(), threads, [&](std::size_t i) {
+    const detail::Stopwatch watch;
+    fits[i].summary = fitPart(regions[i], object_rotation, points(i), options);
+    fits[i].milliseconds = watch.milliseconds();
+  });
   return fits;
 }
 

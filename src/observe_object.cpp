@@ -67,7 +67,7 @@ SupportEvidence ObservedObject::evidence(
   return e;
 }
 
-bool observeObject(const Eigen::Matrix3Xf& points,
+bool observeObject(const CloudPoints& points,
                    int width,
                    int height,
                    const std::vector<int>& object,

@@ -10,7 +10,7 @@ namespace pcl_sq::detail {
 
 /** \brief Input and output of an observation. */
 struct Observation {
-  const Eigen::Matrix3Xf& points;
+  const CloudPoints& points;
   int width, height;
   const std::vector<int>& object;
   const ViewOptions& view;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/support_fit.h"
 
+#include "parallel_for.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "support_problem.h"
 
@@ -21,7 +22,6 @@ bool cheaper(const Trial& a, const Trial& b) {
 
 /** \brief Coarse fits of all starts, the best of them refined; sorted by cost. */
 std::vector<Trial> search(const SupportProblem& p, int& iterations) {
-  std::vector<Trial> trials;
   std::vector<Superquadric> starts;
   if (p.options().start)
     starts.push_back(p.frame().toUnit(*p.options().start));
@@ -30,29 +30,36 @@ std::vector<Trial> search(const SupportProblem& p, int& iterations) {
   if (p.options().starts > 0 && starts.size() > std::size_t(p.options().starts))
     starts.resize(std::size_t(p.options().starts));
   const double wide = std::max(0.3 * START_SIGMA, 2.0 * p.noise());
-  for (const Superquadric& start : starts) {
-    Trial t;
-    t.model = start;
+  std::vector<Trial> trials(starts.size());
+  const auto forEachTrial = [&](const auto& work) {
+    parallelFor(
+        trials.size(), p.options().threads, [&](std::size_t i) { work(trials[i], i); });
+  };
+  forEachTrial([&](Trial& t, std::size_t i) {
+    t.model = starts[i];
     t.sigma = std::max(START_SIGMA, p.noise());
     t = p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true);
     t.sigma = wide;
-    trials.push_back(p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true));
-  }
+    t = p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true);
+  });
   std::sort(trials.begin(), trials.end(), cheaper);
   const bool quick = !p.options().choose_shape;
   const std::size_t kept = quick ? 1 : KEPT;
   if (trials.size() > kept)
     trials.resize(kept);
-  double sigma = 1e300;
-  for (Trial& t : trials) {
+  std::vector<double> sigmas(trials.size());
+  forEachTrial([&](Trial& t, std::size_t i) {
     t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 8, {}, quick);
-    sigma = std::min(sigma, p.sigmaOf(t, p.medium()));
-  }
-  for (Trial& t : trials) { // compared at one sigma, or the widest would win
+    sigmas[i] = p.sigmaOf(t, p.medium());
+  });
+  // compared at one sigma, or the widest would win
+  const double sigma = *std::min_element(sigmas.begin(), sigmas.end());
+  forEachTrial([&](Trial& t, std::size_t) {
     t.sigma = sigma;
     t = p.minimise(t, p.medium(), kernels::Residual::FOOT_POINT, 12, {}, quick);
+  });
+  for (const Trial& t : trials)
     iterations += t.iterations;
-  }
   std::sort(trials.begin(), trials.end(), cheaper);
   const double again = p.sigmaOf(trials.front(), p.medium());
   for (Trial& t : trials)

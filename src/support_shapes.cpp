@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The families of superquadrics and their fits from a general one.
+#include "parallel_for.h"
 #include "support_problem.h"
+
+#include <array>
+#include <functional>
 
 namespace pcl_sq::detail {
 
@@ -94,7 +98,44 @@ public:
   Families(const SupportProblem& problem, double sigma)
       : problem_(problem), sigma_(sigma) {}
 
-  void fit(ShapeClass shape, Superquadric start, int upright_axis) {
+  /** \brief Members of a family from a start; fitted by take(). */
+  void fit(ShapeClass shape, const Superquadric& start, int upright_axis) {
+    tasks_.push_back([=](std::vector<ShapeCandidate>& found) {
+      fitFamily(shape, start, upright_axis, found);
+    });
+  }
+  void fitCoaxial(const Superquadric& other, const Superquadric& start) {
+    tasks_.push_back(
+        [=](std::vector<ShapeCandidate>& found) { fitOnAxis(other, start, found); });
+  }
+  /** \brief A general fit as it is. */
+  void keep(const Trial& t) {
+    tasks_.push_back([=](std::vector<ShapeCandidate>& found) {
+      ShapeCandidate c;
+      c.cost = t.cost;
+      c.bic = t.cost + c.parameters * std::log(problem_.observations());
+      c.model = t.model;
+      found.push_back(c);
+    });
+  }
+  /** \brief Fits all; the best of each family. */
+  std::vector<ShapeCandidate> take() {
+    std::vector<std::vector<ShapeCandidate>> found(tasks_.size());
+    parallelFor(tasks_.size(), problem_.options().threads, [&](std::size_t i) {
+      tasks_[i](found[i]);
+    });
+    std::vector<ShapeCandidate> best;
+    for (const auto& candidates : found)
+      for (const ShapeCandidate& c : candidates)
+        add(c, best);
+    return best;
+  }
+
+private:
+  void fitFamily(ShapeClass shape,
+                 Superquadric start,
+                 int upright_axis,
+                 std::vector<ShapeCandidate>& found) const {
     Trial t;
     t.sigma = sigma_;
     ParameterSpace space = spaceOf(shape);
@@ -104,7 +145,7 @@ public:
     }
     t.model = start;
     makeMember(t.model, shape);
-    run(shape, t, space, upright_axis >= 0, false);
+    found.push_back(run(shape, t, space, upright_axis >= 0, false));
     if (shape != ShapeClass::ROTATIONAL || !problem_.hasView() || !flat(start))
       return;
     // a deep cross-section may be the guess of a shallow one: the front stays in place
@@ -113,9 +154,11 @@ public:
     start.epsilon2 = 1.0;
     start.center += (start.support(problem_.view()) - front) * problem_.view();
     t.model = start;
-    run(shape, t, space, upright_axis >= 0, false);
+    found.push_back(run(shape, t, space, upright_axis >= 0, false));
   }
-  void fitCoaxial(const Superquadric& other, const Superquadric& start) {
+  void fitOnAxis(const Superquadric& other,
+                 const Superquadric& start,
+                 std::vector<ShapeCandidate>& found) const {
     Trial t;
     t.sigma = sigma_;
     t.model = start;
@@ -135,24 +178,13 @@ public:
       if (space.basis(0, c) == 0.0 && space.basis(1, c) == 0.0)
         space.basis.col(columns++) = space.basis.col(c);
     space.basis.conservativeResize(11, columns);
-    run(ShapeClass::ROTATIONAL, t, space, false, true);
+    found.push_back(run(ShapeClass::ROTATIONAL, t, space, false, true));
   }
-  /** \brief A general fit as it is. */
-  void keep(const Trial& t) {
-    ShapeCandidate c;
-    c.cost = t.cost;
-    c.bic = t.cost + c.parameters * std::log(problem_.observations());
-    c.model = t.model;
-    candidates_.push_back(c);
-  }
-  std::vector<ShapeCandidate> take() { return std::move(candidates_); }
-
-private:
-  void run(ShapeClass shape,
-           const Trial& start,
-           const ParameterSpace& space,
-           bool is_upright,
-           bool on_axis) {
+  ShapeCandidate run(ShapeClass shape,
+                     const Trial& start,
+                     const ParameterSpace& space,
+                     bool is_upright,
+                     bool on_axis) const {
     const Trial t = problem_.minimise(
         start, problem_.medium(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
     ShapeCandidate c;
@@ -164,36 +196,43 @@ private:
     c.bic = t.cost + c.parameters * std::log(problem_.observations()) -
             (on_axis ? SHARED_AXIS : 0.0);
     c.model = t.model;
-    for (ShapeCandidate& other : candidates_)
+    return c;
+  }
+  static void add(const ShapeCandidate& c, std::vector<ShapeCandidate>& best) {
+    for (ShapeCandidate& other : best)
       if (other.shape == c.shape && other.upright == c.upright &&
           other.on_axis == c.on_axis) {
         if (c.bic < other.bic)
           other = c;
         return;
       }
-    candidates_.push_back(c);
+    best.push_back(c);
   }
 
   const SupportProblem& problem_;
   double sigma_;
-  std::vector<ShapeCandidate> candidates_;
+  std::vector<std::function<void(std::vector<ShapeCandidate>&)>> tasks_;
 };
 
 /** \brief The best of a model's other descriptions: exponents exchanged, the dual. */
 Trial bestDescription(const SupportProblem& problem, Trial best) {
   for (int round = 0; round < 2; ++round) {
     Trial next = best;
-    for (const Superquadric& m : {dual(best.model),
-                                  withAxis(best.model, 0),
-                                  withAxis(best.model, 1),
-                                  dual(withAxis(best.model, 0)),
-                                  dual(withAxis(best.model, 1))}) {
-      Trial t = best;
-      t.model = m;
-      t = problem.minimise(t, problem.medium(), kernels::Residual::FOOT_POINT, 6);
+    const Superquadric others[] = {dual(best.model),
+                                   withAxis(best.model, 0),
+                                   withAxis(best.model, 1),
+                                   dual(withAxis(best.model, 0)),
+                                   dual(withAxis(best.model, 1))};
+    std::array<Trial, 5> trials;
+    parallelFor(trials.size(), problem.options().threads, [&](std::size_t i) {
+      trials[i] = best;
+      trials[i].model = others[i];
+      trials[i] = problem.minimise(
+          trials[i], problem.medium(), kernels::Residual::FOOT_POINT, 6);
+    });
+    for (const Trial& t : trials)
       if (t.cost < next.cost)
         next = t;
-    }
     const bool settled = next.cost > best.cost - 1.0;
     best = next;
     if (settled)

@@ -10,6 +10,10 @@
 
 namespace pcl_sq {
 
+/** \brief Points as columns [m], NaN where there is none: a matrix, or the coordinates
+ * of a pcl::PointCloud where they are (getMatrixXfMap()). */
+using CloudPoints = Eigen::Ref<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>>;
+
 /** \brief A table: normal . p + offset = 0, the normal on the camera's side. */
 struct TableModel {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
@@ -87,7 +91,7 @@ struct PCL_SQ_EXPORTS ObservedObject {
  * \param[out] why the reason of a failure as a sentence (optional)
  * \return false if the view contradicts the cloud (mask of another size, mask beside
  * the object, too few points) */
-[[nodiscard]] PCL_SQ_EXPORTS bool observeObject(const Eigen::Matrix3Xf& points,
+[[nodiscard]] PCL_SQ_EXPORTS bool observeObject(const CloudPoints& points,
                                                 int width,
                                                 int height,
                                                 const std::vector<int>& object,
@@ -97,17 +101,15 @@ struct PCL_SQ_EXPORTS ObservedObject {
 
 /** \brief Intrinsics of an organized cloud in its camera's frame, by regression.
  * \return false if the cloud is no pinhole image */
-[[nodiscard]] PCL_SQ_EXPORTS bool findIntrinsics(const Eigen::Matrix3Xf& points,
-                                                 int width,
-                                                 int height,
-                                                 PinholeCamera& camera);
+[[nodiscard]] PCL_SQ_EXPORTS bool
+findIntrinsics(const CloudPoints& points, int width, int height, PinholeCamera& camera);
 
 /** \brief Finds the object that stands on a table in an organized cloud: pixels above
  * the table that hang together without a jump in depth, the largest such region that
  * the image border does not cut.
  * \param[in,out] table used if set, found otherwise
  * \return false if there is no table or nothing stands on it */
-[[nodiscard]] PCL_SQ_EXPORTS bool findStandingObject(const Eigen::Matrix3Xf& points,
+[[nodiscard]] PCL_SQ_EXPORTS bool findStandingObject(const CloudPoints& points,
                                                      int width,
                                                      int height,
                                                      std::optional<TableModel>& table,

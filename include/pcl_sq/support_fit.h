@@ -55,7 +55,8 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   std::optional<Superquadric> start; ///< no search but this start
   /** \brief An axis of revolution of another part that this part may share. */
   std::optional<Superquadric> coaxial;
-  bool robust = true; ///< some points may be outliers
+  bool robust = true;       ///< some points may be outliers
+  unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
 };
 
 /** \brief Result of fitWithSupports(). */

@@ -120,9 +120,13 @@ bool ObjectSurfaceEstimation<PointT>::cropRegion(pcl::IndicesPtr& object) {
 
 template <typename PointT>
 bool ObjectSurfaceEstimation<PointT>::observe(pcl::IndicesPtr& object) {
-  Eigen::Matrix3Xf points(3, static_cast<Eigen::Index>(input_->size()));
-  for (std::size_t i = 0; i < input_->size(); ++i)
-    points.col(static_cast<Eigen::Index>(i)) = (*input_)[i].getVector3fMap();
+  // the coordinates where they are: a copy of a whole image takes longer than the rest
+  const auto& cloud_points = input_->points;
+  const Eigen::Map<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>> points(
+      cloud_points.empty() ? nullptr : cloud_points.front().data,
+      3,
+      static_cast<Eigen::Index>(cloud_points.size()),
+      Eigen::OuterStride<>(sizeof(PointT) / sizeof(float)));
   ViewOptions view = options_.view;
   const Eigen::Vector3d origin =
       input_->sensor_origin_.template head<3>().template cast<double>();
@@ -161,7 +165,9 @@ bool ObjectSurfaceEstimation<PointT>::observe(pcl::IndicesPtr& object) {
 
 template <typename PointT>
 bool ObjectSurfaceEstimation<PointT>::fitObject(MultiSuperquadric& model) {
-  ObjectFit fit = pcl_sq::fitObject(report_.view, options_.object_fit);
+  ObjectFitOptions options = options_.object_fit;
+  options.fit.threads = threads_;
+  ObjectFit fit = pcl_sq::fitObject(report_.view, options);
   if (fit.model.empty())
     return fail(std::to_string(report_.view.points.cols()) +
                 " points give no superquadric: they must span a volume");

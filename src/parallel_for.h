@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <omp.h>
+
+#include <cstddef>
+#include <exception>
+
+namespace pcl_sq::detail {
+
+/** \brief Calls work(i) for i in [0, count), in any order and by several threads at
+ * once; inside of another parallel loop by one. An exception is handed on after all are
+ * done. \param[in] threads 0: one per core */
+template <typename Work>
+void parallelFor(std::size_t count, unsigned int threads, const Work& work) {
+  const int n_threads = threads > 0 ? int(threads) : omp_get_num_procs();
+  std::exception_ptr error; // must not leave the parallel region by itself
+#pragma omp parallel for schedule(dynamic) num_threads(n_threads) if (count > 1)
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      work(i);
+    } catch (...) {
+#pragma omp critical
+      error = std::current_exception();
+    }
+  }
+  if (error)
+    std::rethrow_exception(error);
+}
+
+} // namespace pcl_sq::detail
