@@ -3,6 +3,7 @@
 #include "observe_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_sq {
@@ -22,10 +23,14 @@ constexpr int FREE_PIXELS = 500;  ///< about so many around the object are looke
 constexpr int FREE_MARGIN = 2;    ///< pixels beside the outline that may be either's
 constexpr int PLANES = 3;         ///< largest ones among which the table is
 
+/** \brief Upper median; reorders the values. */
+double median(double* values, std::size_t count) {
+  std::nth_element(values, values + count / 2, values + count);
+  return values[count / 2];
+}
+
 double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(values.data(), values.size());
 }
 
 struct Bounds {
@@ -74,20 +79,21 @@ bool deepInside(const CellMask& mask, int x, int y, int rim) {
 
 /** \brief Whether a pixel's depth is that of most of its neighbours in the mask. */
 bool agreesWithNeighbours(const Observation& o, const CellMask& mask, int x, int y) {
-  std::vector<double> depths;
+  std::array<double, 49> depths;
+  std::size_t count = 0;
   for (int dy = -3; dy <= 3; ++dy)
     for (int dx = -3; dx <= 3; ++dx)
       if (mask(x + dx, y + dy)) {
         const int c = (y + dy) * o.width + x + dx;
         if (o.finite(c))
-          depths.push_back(o.out.camera.depthOf(o.at(c)));
+          depths[count++] = o.out.camera.depthOf(o.at(c));
       }
-  if (depths.size() < 5)
+  if (count < 5)
     return false;
-  const double middle = median(depths);
-  for (double& d : depths)
-    d = std::abs(d - middle);
-  const double spread = median(depths);
+  const double middle = median(depths.data(), count);
+  for (std::size_t i = 0; i < count; ++i)
+    depths[i] = std::abs(depths[i] - middle);
+  const double spread = median(depths.data(), count);
   const double depth = o.out.camera.depthOf(o.at(y * o.width + x));
   return std::abs(depth - middle) <= 6.0 * spread + 1e-3 * middle;
 }
@@ -149,7 +155,10 @@ void findTable(Observation& o, const Bounds& b) {
 
 /** \brief Whether something nearer than the object hides it beyond a contour pixel. */
 bool occluded(const Observation& o, int x, int y) {
+  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
   std::vector<double> own, other;
+  own.reserve(WINDOW);
+  other.reserve(WINDOW);
   for (int dy = -OCCLUDER_REACH; dy <= OCCLUDER_REACH; dy += 1)
     for (int dx = -OCCLUDER_REACH; dx <= OCCLUDER_REACH; dx += 1) {
       const int u = x + dx, v = y + dy;
