@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/fit_object.h"
-
-#include "view_scene.h"
+#include "fit_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +9,6 @@ using namespace pcl_sq;
 using namespace pcl_sq::test;
 
 namespace {
-
-ObjectFit fitScene(const ViewScene& scene, const ObjectFitOptions& options = {}) {
-  ViewOptions view;
-  view.mask = scene.mask;
-  view.camera = scene.camera;
-  ObservedObject observed;
-  std::string why;
-  EXPECT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, observed, &why))
-      << why;
-  return fitObject(observed, options);
-}
 
 /** \brief A camera with more pixels, for objects with thin parts. */
 ViewScene fineScene() {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/support_fit.h"
 
-#include "pcl_sq/fit_object.h"
-#include "view_scene.h"
+#include "fit_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -10,19 +9,6 @@ using namespace pcl_sq;
 using namespace pcl_sq::test;
 
 namespace {
-
-/** \brief Fits the object of a scene seen through its mask. */
-ObjectFit fitScene(const ViewScene& scene, const ObjectFitOptions& options = {}) {
-  ViewOptions view;
-  view.mask = scene.mask;
-  view.camera = scene.camera;
-  ObservedObject observed;
-  std::string why;
-  EXPECT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, observed, &why))
-      << why;
-  return fitObject(observed, options);
-}
 
 /** \brief Share of the volume of two unions that both have. */
 double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
