@@ -13,7 +13,7 @@ namespace {
 
 /** \brief Where the points begin along a direction, seen from \a origin [m]; a
  * hundredth of them may be stray. */
-double frontOf(const Eigen::Matrix3Xd& points,
+double frontOf(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                const Eigen::Vector3d& origin,
                const Eigen::Vector3d& direction) {
   std::vector<double> along;
@@ -30,15 +30,14 @@ double frontOf(const Eigen::Matrix3Xd& points,
 
 FitSummary fitPart(const RoiBox& region,
                    const Eigen::Matrix3d& object_rotation,
-                   const Eigen::Matrix3Xd& points,
+                   const CloudPoints& cloud,
                    const EstimationOptions& options) {
   if (options.fit == FitMode::FULL) {
     FitSummary flat; // no volume can be told from a plane, a line or a point
     flat.termination = Termination::DEGENERATE;
-    return detail::spannedDimensions(points) < 3
-               ? flat
-               : fitSuperquadric(points, options.full_fit);
+    return spansVolume(cloud) ? fitSuperquadric(cloud, options.full_fit) : flat;
   }
+  const Eigen::Matrix3Xd points = cloud.cast<double>();
   // III-B: the region's centre, the principal axes, a1 and a2 from the extents
   Eigen::Vector3d center = options.center == CenterRule::MEAN
                                ? detail::momentsOf(points).mean
@@ -64,7 +63,7 @@ FitSummary fitPart(const RoiBox& region,
 std::vector<PartFit>
 fitParts(const std::vector<RoiBox>& regions,
          const Eigen::Matrix3d& object_rotation,
-         const std::function<Eigen::Matrix3Xd(std::size_t)>& points,
+         const std::function<Eigen::Matrix3Xf(std::size_t)>& points,
          const EstimationOptions& options,
          unsigned int threads) {
   std::vector<PartFit> fits(regions.size());

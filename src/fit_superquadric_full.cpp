@@ -107,10 +107,12 @@ FitSetting settingOf(const FitOptions& options, std::size_t count) {
   return s;
 }
 
-FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                   const Superquadric* initial,
-                   const FitOptions& options,
-                   const ContributorFactory& factory) {
+namespace {
+
+/** \brief fitSuperquadric(); \a initial nullptr: search. */
+template <typename Points>
+FitSummary
+fitFull(const Points& points, const Superquadric* initial, const FitOptions& options) {
   FitSummary summary;
   const bool held = options.fixed != FIX_NOTHING;
   if (!options.isValid() || (held && !initial) || (initial && !initial->isValid())) {
@@ -118,24 +120,23 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     return summary;
   }
   UnitFrame frame;
-  const bool framed = principalFrame(points, frame);
-  const UnitPoints all = framed ? toUnit(points, frame) : UnitPoints();
-  summary.points = all.size();
-  if (!framed || all.size() < MIN_POINTS || isLine(frame)) {
-    summary.termination = framed && all.size() >= MIN_POINTS
-                              ? Termination::DEGENERATE
-                              : Termination::TOO_FEW_POINTS;
+  summary.points = principalFrame(points, frame);
+  if (summary.points < MIN_POINTS || isLine(frame)) {
+    summary.termination = summary.points >= MIN_POINTS ? Termination::DEGENERATE
+                                                       : Termination::TOO_FEW_POINTS;
     return summary;
   }
   if (initial && !(frame.toUnit(initial->center).norm() < FARTHEST)) {
     summary.termination = Termination::INVALID_OPTIONS;
     return summary;
   }
-  const UnitPoints part = subset(all, WORKING_POINTS);
+  const bool large = summary.points > MEASURED_POINTS;
+  const UnitPoints all = large ? UnitPoints() : toUnit(points, frame);
+  const UnitPoints part =
+      large ? subsetInUnit(points, frame, summary.points, WORKING_POINTS)
+            : subset(all, WORKING_POINTS);
   FitSetting setting = settingOf(options, part.size());
   setting.limits.fixed_sigma = options.noise / frame.scale;
-  if (factory)
-    setting.lm.contributor = factory(frame);
   LmResult last;
   Candidate best;
   if (initial) {
@@ -159,22 +160,33 @@ FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   summary.sigma = best.mixture.sigma * frame.scale;
   summary.outlier_share = best.mixture.outlier_share;
   summary.covariance = covarianceOf(last, setting.lm, best.mixture.sigma, frame.scale);
-  addDistances(
-      all.size() > MEASURED_POINTS ? part : all, best.model, frame.scale, summary);
+  addDistances(large ? part : all, best.model, frame.scale, summary);
   return summary;
 }
+
+} // namespace
 
 } // namespace detail
 
 FitSummary fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                            const FitOptions& options) {
-  return detail::fitFull(points, nullptr, options, {});
+  return detail::fitFull(points, nullptr, options);
 }
 
 FitSummary fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                            const Superquadric& initial,
                            const FitOptions& options) {
-  return detail::fitFull(points, &initial, options, {});
+  return detail::fitFull(points, &initial, options);
+}
+
+FitSummary fitSuperquadric(const CloudPoints& points, const FitOptions& options) {
+  return detail::fitFull(points, nullptr, options);
+}
+
+FitSummary fitSuperquadric(const CloudPoints& points,
+                           const Superquadric& initial,
+                           const FitOptions& options) {
+  return detail::fitFull(points, &initial, options);
 }
 
 } // namespace pcl_sq

@@ -50,15 +50,4 @@ Candidate refine(const UnitPoints& points,
  * or it takes a part of the surface for outliers. */
 bool doubtful(const UnitPoints& points, const Candidate& candidate);
 
-/** \brief A further cost for a cloud's frame, see Contributor. */
-using ContributorFactory = std::function<Contributor(const UnitFrame&)>;
-
-/** \brief fitSuperquadric() with a further cost (in squared lengths of the unit frame,
- * beside the points' squared distances). \param[in] initial nullptr: search
- * \param[in] factory may be empty */
-FitSummary fitFull(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                   const Superquadric* initial,
-                   const FitOptions& options,
-                   const ContributorFactory& factory);
-
 } // namespace pcl_sq::detail

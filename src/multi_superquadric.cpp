@@ -60,8 +60,16 @@ double MultiSuperquadric::distortion(const Eigen::Ref<const Eigen::Matrix3Xd>& p
   return detail::surfaceStatistics(*this, points).distortion * std::pow(unit, -1.5);
 }
 
+double MultiSuperquadric::distortion(const CloudPoints& points, double unit) const {
+  return detail::surfaceStatistics(*this, points).distortion * std::pow(unit, -1.5);
+}
+
 double
 MultiSuperquadric::rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const {
+  return detail::surfaceStatistics(*this, points).rms_distance;
+}
+
+double MultiSuperquadric::rmsDistance(const CloudPoints& points) const {
   return detail::surfaceStatistics(*this, points).rms_distance;
 }
 

@@ -5,6 +5,8 @@
 
 namespace pcl_sq::detail {
 
+// Points: Eigen::Ref<const Eigen::Matrix3Xd>, Eigen::Matrix3Xd or CloudPoints.
+
 /** \brief First and second moments of the finite points. */
 struct Moments {
   std::size_t count = 0;
@@ -12,10 +14,12 @@ struct Moments {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-Moments momentsOf(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+template <typename Points>
+Moments momentsOf(const Points& points);
 
 /** \brief Dimensions that the points span: 0 (one place), 1 (a line), 2 (a plane), 3.
  * Thickness within the rounding of single-precision coordinates does not count. */
-int spannedDimensions(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+template <typename Points>
+int spannedDimensions(const Points& points);
 
 } // namespace pcl_sq::detail

@@ -10,8 +10,9 @@
 
 namespace pcl_sq {
 
-Eigen::Matrix3d principalAxes(const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
-  const detail::Moments moments = detail::momentsOf(points);
+namespace {
+
+Eigen::Matrix3d axesOf(const detail::Moments& moments) {
   if (moments.count < 2)
     return Eigen::Matrix3d::Identity();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments.covariance);
@@ -37,6 +38,16 @@ Eigen::Matrix3d principalAxes(const Eigen::Ref<const Eigen::Matrix3Xd>& points) 
     rotation.col(least) *= -1.0;
   }
   return rotation;
+}
+
+} // namespace
+
+Eigen::Matrix3d principalAxes(const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+  return axesOf(detail::momentsOf(points));
+}
+
+Eigen::Matrix3d principalAxes(const CloudPoints& points) {
+  return axesOf(detail::momentsOf(points));
 }
 
 } // namespace pcl_sq

@@ -3,38 +3,65 @@
 #include "point_set.h"
 #include "unit_frame.h"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace pcl_sq {
 
-Eigen::VectorXd surfaceDistances(const Superquadric& superquadric,
-                                 const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+namespace {
+
+constexpr Eigen::Index CHUNK = 4096; ///< points at a time: bounds the memory
+constexpr double FAR = 1e6; ///< in sizes; keeps squares within single precision
+
+template <typename Points>
+Eigen::VectorXd distancesTo(const Superquadric& superquadric, const Points& points) {
   detail::UnitFrame frame;
   frame.origin = superquadric.center;
   frame.scale = superquadric.semi_axes.maxCoeff();
-  constexpr double FAR = 1e6; // in sizes; keeps squares within single precision
+  const kernels::Shape shape = detail::toShape(frame.toUnit(superquadric));
   detail::UnitPoints unit;
-  unit.reserve(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    Eigen::Vector3d p = frame.toUnit(points.col(i));
-    p = p.allFinite() ? p.cwiseMax(-FAR).cwiseMin(FAR) : Eigen::Vector3d::Zero().eval();
-    unit.add(
-        static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-  }
-  std::vector<float> residuals(unit.size());
-  kernels::kernels().residuals(unit.view(),
-                               detail::toShape(frame.toUnit(superquadric)),
-                               kernels::Residual::FOOT_POINT,
-                               residuals.data());
+  unit.reserve(static_cast<std::size_t>(std::min(CHUNK, points.cols())));
+  std::vector<float> residuals(CHUNK);
   Eigen::VectorXd distances(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    distances[i] = points.col(i).allFinite()
-                       ? frame.scale * double(residuals[static_cast<std::size_t>(i)])
-                       : std::numeric_limits<double>::infinity();
+  for (Eigen::Index first = 0; first < points.cols(); first += CHUNK) {
+    const Eigen::Index count = std::min(CHUNK, points.cols() - first);
+    unit.clear();
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      Eigen::Vector3d p = frame.toUnit(points.col(i).template cast<double>());
+      p = p.allFinite() ? p.cwiseMax(-FAR).cwiseMin(FAR)
+                        : Eigen::Vector3d::Zero().eval();
+      unit.add(
+          static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    }
+    kernels::kernels().residuals(
+        unit.view(), shape, kernels::Residual::FOOT_POINT, residuals.data());
+    for (Eigen::Index i = 0; i < count; ++i)
+      distances[first + i] =
+          points.col(first + i).allFinite()
+              ? frame.scale * double(residuals[static_cast<std::size_t>(i)])
+              : std::numeric_limits<double>::infinity();
+  }
   return distances;
 }
 
+} // namespace
+
+Eigen::VectorXd surfaceDistances(const Superquadric& superquadric,
+                                 const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+  return distancesTo(superquadric, points);
+}
+
+Eigen::VectorXd surfaceDistances(const Superquadric& superquadric,
+                                 const CloudPoints& points) {
+  return distancesTo(superquadric, points);
+}
+
 bool spansVolume(const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+  return detail::spannedDimensions(points) == 3;
+}
+
+bool spansVolume(const CloudPoints& points) {
   return detail::spannedDimensions(points) == 3;
 }
 

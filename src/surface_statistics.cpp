@@ -31,8 +31,9 @@ void keepNearest(const std::vector<float>& candidate, std::vector<float>& neares
 
 } // namespace
 
+template <typename Points>
 SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
-                                    const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+                                    const Points& points) {
   SurfaceStatistics statistics;
   if (model.empty())
     return statistics;
@@ -50,7 +51,8 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
   std::size_t count = 0;
   for (Eigen::Index first = 0; first < points.cols(); first += CHUNK) {
     const UnitPoints chunk =
-        toUnit(points.middleCols(first, std::min(CHUNK, points.cols() - first)), frame);
+        toUnit(Points(points.middleCols(first, std::min(CHUNK, points.cols() - first))),
+               frame);
     const std::size_t n = chunk.size();
     relative.resize(n + kernels::BLOCK);
     metric.resize(n + kernels::BLOCK);
@@ -81,6 +83,11 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
   }
   return statistics;
 }
+
+template SurfaceStatistics surfaceStatistics(const MultiSuperquadric&,
+                                             const Eigen::Ref<const Eigen::Matrix3Xd>&);
+template SurfaceStatistics surfaceStatistics(const MultiSuperquadric&,
+                                             const CloudPoints&);
 
 std::vector<double> smallestResiduals(const MultiSuperquadric& model,
                                       const Eigen::Ref<const Eigen::Matrix3Xd>& points,

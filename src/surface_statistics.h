@@ -15,9 +15,11 @@ struct SurfaceStatistics {
 };
 
 /** \brief Both at once, in one pass with the vectorised kernels; non-finite points are
- * left out. Zeros for no points or an empty model. */
+ * left out. Zeros for no points or an empty model.
+ * \param[in] points Eigen::Ref<const Eigen::Matrix3Xd> or CloudPoints */
+template <typename Points>
 SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
-                                    const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+                                    const Points& points);
 
 /** \brief The smallest signed residual of all parts for each point: where a point lies
  * in the union. Distances are in metres; infinity for an empty model. \param[in] points

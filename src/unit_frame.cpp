@@ -33,6 +33,59 @@ std::uint32_t hash(float x, float y, float z) {
   return static_cast<std::uint32_t>(h >> 16);
 }
 
+/** \brief Calls \a use with each finite point in a frame. */
+template <typename Points, typename Use>
+void forEachInUnit(const Points& points, const UnitFrame& frame, const Use& use) {
+  const Eigen::Matrix3d linear = frame.axes.transpose() / frame.scale;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d p =
+        linear * (points.col(i).template cast<double>() - frame.origin);
+    if (isFinite(p))
+      use(p.cast<float>());
+  }
+}
+
+/** \brief The \a count points of the smallest hashes among \a total.
+ * \param[in] for_each calls its argument with each point */
+template <typename ForEach>
+UnitPoints
+smallestHashes(std::size_t total, std::size_t count, const ForEach& for_each) {
+  struct Hashed {
+    std::uint32_t hash, order;
+    Eigen::Vector3f point;
+    bool operator<(const Hashed& other) const {
+      return std::pair(hash, order) < std::pair(other.hash, other.order);
+    }
+  };
+  // every hash below a bound is sure to be a candidate, so that a large cloud is
+  // scanned once and only few are sorted; where points coincide there may be too few
+  std::vector<Hashed> candidates;
+  for (double share = 1.5 * (double(count) + 64.0) / double(total);
+       candidates.size() < count;
+       share *= 16.0) {
+    const auto bound = static_cast<std::uint32_t>(std::min(share, 1.0) * 4294967295.0);
+    candidates.clear();
+    candidates.reserve(
+        static_cast<std::size_t>(1.2 * std::min(share, 1.0) * double(total)));
+    std::uint32_t order = 0;
+    for_each([&](const Eigen::Vector3f& p) {
+      if (const std::uint32_t h = hash(p[0], p[1], p[2]); h <= bound)
+        candidates.push_back({h, order, p});
+      ++order;
+    });
+  }
+  std::nth_element(candidates.begin(),
+                   candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                   candidates.end());
+  UnitPoints chosen;
+  chosen.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f& p = candidates[i].point;
+    chosen.add(p[0], p[1], p[2]);
+  }
+  return chosen;
+}
+
 } // namespace
 
 void UnitPoints::reserve(std::size_t count) {
@@ -56,34 +109,34 @@ double UnitPoints::boxVolume() const {
   return volume;
 }
 
-bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                    UnitFrame& frame) {
+template <typename Points>
+std::size_t principalFrame(const Points& points, UnitFrame& frame) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (isFinite(points.col(i))) {
-      mean += points.col(i);
+      mean += points.col(i).template cast<double>();
       ++count;
     }
   if (count < 3)
-    return false;
+    return 0;
   mean /= double(count);
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d third[3] = {second, second, second}; // sums of d d^T d_k
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (isFinite(points.col(i))) {
-      const Eigen::Vector3d d = points.col(i) - mean;
+      const Eigen::Vector3d d = points.col(i).template cast<double>() - mean;
       const Eigen::Matrix3d square = d * d.transpose();
       second += square;
       for (int k = 0; k < 3; ++k)
         third[k] += square * d[k];
     }
   if (!second.allFinite())
-    return false;
+    return 0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second / double(count));
   frame.deviations = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (!(frame.deviations[2] > 1e-150) || !std::isfinite(frame.deviations[2]))
-    return false;
+    return 0;
   frame.origin = mean;
   frame.scale = frame.deviations[2];
   frame.axes = eigen.eigenvectors();
@@ -96,7 +149,7 @@ bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
       frame.axes.col(k) *= -1.0;
   }
   frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
-  return true;
+  return count;
 }
 
 bool isLine(const UnitFrame& frame) {
@@ -105,51 +158,43 @@ bool isLine(const UnitFrame& frame) {
   return frame.deviations[1] <= std::max(rounding, 1e-7 * frame.deviations[2]);
 }
 
-UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                  const UnitFrame& frame) {
+template <typename Points>
+UnitPoints toUnit(const Points& points, const UnitFrame& frame) {
   UnitPoints unit;
   unit.reserve(static_cast<std::size_t>(points.cols()));
-  const Eigen::Matrix3d linear = frame.axes.transpose() / frame.scale;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d p = linear * (points.col(i) - frame.origin);
-    if (isFinite(p))
-      unit.add(
-          static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-  }
+  forEachInUnit(
+      points, frame, [&unit](const Eigen::Vector3f& p) { unit.add(p[0], p[1], p[2]); });
   return unit;
 }
 
 UnitPoints subset(const UnitPoints& points, std::size_t count) {
-  UnitPoints chosen;
   if (points.size() <= count)
     return points;
-  // every hash below a bound is sure to be a candidate, so that a large cloud is
-  // scanned once and only few are sorted; where points coincide there may be too few
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates;
-  for (double share = 1.5 * (double(count) + 64.0) / double(points.size());
-       candidates.size() < count;
-       share *= 16.0) {
-    const auto bound = static_cast<std::uint32_t>(std::min(share, 1.0) * 4294967295.0);
-    candidates.clear();
-    candidates.reserve(
-        static_cast<std::size_t>(1.2 * std::min(share, 1.0) * double(points.size())));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3f p = points[i];
-      const std::uint32_t h = hash(p[0], p[1], p[2]);
-      if (h <= bound)
-        candidates.emplace_back(h, static_cast<std::uint32_t>(i));
-    }
-  }
-  std::nth_element(candidates.begin(),
-                   candidates.begin() + static_cast<std::ptrdiff_t>(count),
-                   candidates.end());
-  chosen.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f p = points[candidates[i].second];
-    chosen.add(p[0], p[1], p[2]);
-  }
-  return chosen;
+  return smallestHashes(points.size(), count, [&points](const auto& use) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      use(points[i]);
+  });
 }
+
+template <typename Points>
+UnitPoints subsetInUnit(const Points& points,
+                        const UnitFrame& frame,
+                        std::size_t finite,
+                        std::size_t count) {
+  return smallestHashes(
+      finite, count, [&](const auto& use) { forEachInUnit(points, frame, use); });
+}
+
+using DoublePoints = Eigen::Ref<const Eigen::Matrix3Xd>;
+template std::size_t principalFrame(const DoublePoints&, UnitFrame&);
+template std::size_t principalFrame(const CloudPoints&, UnitFrame&);
+template UnitPoints toUnit(const DoublePoints&, const UnitFrame&);
+template UnitPoints toUnit(const CloudPoints&, const UnitFrame&);
+template UnitPoints toUnit(const Eigen::Matrix3Xd&, const UnitFrame&);
+template UnitPoints
+subsetInUnit(const DoublePoints&, const UnitFrame&, std::size_t, std::size_t);
+template UnitPoints
+subsetInUnit(const CloudPoints&, const UnitFrame&, std::size_t, std::size_t);
 
 kernels::Shape toShape(const Superquadric& s) {
   kernels::Shape shape;

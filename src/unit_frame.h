@@ -66,21 +66,32 @@ private:
 };
 
 /** \brief Frame of the finite points: mean, principal axes signed by the third moments,
- * standard deviation along the longest as the unit. \return false for fewer than three
- * finite points or a single place */
-bool principalFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& points, UnitFrame& frame);
+ * standard deviation along the longest as the unit.
+ * \param[in] points Eigen::Ref<const Eigen::Matrix3Xd> or CloudPoints
+ * \return the number of finite points; 0 if there are fewer than three, or if all lie
+ * in a single place */
+template <typename Points>
+std::size_t principalFrame(const Points& points, UnitFrame& frame);
 
 /** \brief Whether the points of a frame lie on a line as far as single-precision
  * coordinates can tell. */
 bool isLine(const UnitFrame& frame);
 
 /** \brief The finite points in a frame. */
-UnitPoints toUnit(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                  const UnitFrame& frame);
+template <typename Points>
+UnitPoints toUnit(const Points& points, const UnitFrame& frame);
 
 /** \brief Up to \a count points, the same ones in whatever order they come: those whose
  * coordinates have the smallest hash. */
 UnitPoints subset(const UnitPoints& points, std::size_t count);
+
+/** \brief subset(toUnit(points, frame), count) of many points without a copy of all.
+ * \param[in] finite number of finite points, more than \a count */
+template <typename Points>
+UnitPoints subsetInUnit(const Points& points,
+                        const UnitFrame& frame,
+                        std::size_t finite,
+                        std::size_t count);
 
 /** \brief The shape's numbers for the kernels. */
 kernels::Shape toShape(const Superquadric& superquadric);

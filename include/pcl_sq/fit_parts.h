@@ -27,7 +27,7 @@ struct PartFit {
 PCL_SQ_EXPORTS std::vector<PartFit>
 fitParts(const std::vector<RoiBox>& regions,
          const Eigen::Matrix3d& object_rotation,
-         const std::function<Eigen::Matrix3Xd(std::size_t part)>& points,
+         const std::function<Eigen::Matrix3Xf(std::size_t part)>& points,
          const EstimationOptions& options,
          unsigned int threads);
 

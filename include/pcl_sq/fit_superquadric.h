@@ -53,6 +53,7 @@ struct PCL_SQ_EXPORTS FitSummary {
  * of the cloud's frame: the first to x, the second to y, the third to z (the depth). */
 PCL_SQ_EXPORTS Eigen::Matrix3d
 principalAxes(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+PCL_SQ_EXPORTS Eigen::Matrix3d principalAxes(const CloudPoints& points);
 
 /** \brief The paper's start for one region (III-B): centre and rotation as given, a1
  * and a2 from the points' extents around the centre, a3 half the region's depth,
@@ -83,6 +84,11 @@ fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
 PCL_SQ_EXPORTS FitSummary fitSuperquadric(
     const Eigen::Ref<const Eigen::Matrix3Xd>& points, const FitOptions& options = {});
 
+/** \brief The full fit of a cloud's points where they are: nothing of their number is
+ * copied of clouds of more than 65,536. */
+PCL_SQ_EXPORTS FitSummary fitSuperquadric(const CloudPoints& points,
+                                          const FitOptions& options = {});
+
 /** \brief The full fit from a start, without a search for others.
  *
  * A start a million times farther away than the points are wide is refused
@@ -92,13 +98,21 @@ fitSuperquadric(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                 const Superquadric& initial,
                 const FitOptions& options = {});
 
+/** \brief The full fit of a cloud's points where they are, from a start. */
+PCL_SQ_EXPORTS FitSummary fitSuperquadric(const CloudPoints& points,
+                                          const Superquadric& initial,
+                                          const FitOptions& options = {});
+
 /** \brief Superquadric::footPointDistance() of many points at once, to seven digits of
  * the superquadric's size [m]; infinite where a coordinate is not finite. */
 PCL_SQ_EXPORTS Eigen::VectorXd
 surfaceDistances(const Superquadric& superquadric,
                  const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+PCL_SQ_EXPORTS Eigen::VectorXd surfaceDistances(const Superquadric& superquadric,
+                                                const CloudPoints& points);
 
 /** \brief Whether the finite points lie neither in one place nor on a line or plane. */
 PCL_SQ_EXPORTS bool spansVolume(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+PCL_SQ_EXPORTS bool spansVolume(const CloudPoints& points);
 
 } // namespace pcl_sq

@@ -35,8 +35,10 @@ struct PCL_SQ_EXPORTS MultiSuperquadric {
    * Table I; docs/paper_map.md) */
   double distortion(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                     double unit = 1.0) const;
+  double distortion(const CloudPoints& points, double unit = 1.0) const;
   /** \brief Root mean square of the point-to-surface distance (foot point) [m]. */
   double rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const;
+  double rmsDistance(const CloudPoints& points) const;
 
   /** \brief All parts as one list of closed meshes. */
   TriangleMesh meshParts(int divisions = 24) const;

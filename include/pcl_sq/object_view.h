@@ -10,10 +10,6 @@
 
 namespace pcl_sq {
 
-/** \brief Points as columns [m], NaN where there is none: a matrix, or the coordinates
- * of a pcl::PointCloud where they are (getMatrixXfMap()). */
-using CloudPoints = Eigen::Ref<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>>;
-
 /** \brief A table: normal . p + offset = 0, the normal on the camera's side. */
 struct TableModel {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length

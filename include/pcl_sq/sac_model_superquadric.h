@@ -127,7 +127,7 @@ protected:
 private:
   void initialise(unsigned int sample_size);
   /** \brief Coordinates of points as columns. */
-  Eigen::Matrix3Xd gather(const pcl::Indices& indices) const;
+  Eigen::Matrix3Xf gather(const pcl::Indices& indices) const;
   /** \brief Unsigned distances of points; infinite where a coordinate is not finite. */
   Eigen::VectorXd distances(const pcl::Indices& indices,
                             const Eigen::VectorXf& model_coefficients) const;

@@ -12,6 +12,10 @@
 
 namespace pcl_sq {
 
+/** \brief Points as columns [m], NaN where there is none: a matrix, or the coordinates
+ * of a pcl::PointCloud where they are (getMatrixXfMap().topRows<3>()). */
+using CloudPoints = Eigen::Ref<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>>;
+
 /** \brief Coefficients of a superquadric in the order of pcl::ModelCoefficients:
  * [x y z | roll pitch yaw | a1 a2 a3 | e1 e2], angles as in pcl::getTransformation. */
 using SuperquadricCoefficients = Eigen::Matrix<double, 11, 1>;

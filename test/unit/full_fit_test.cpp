@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/multi_superquadric.h"
 
 #include "random_superquadric.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 using namespace pcl_sq;
 using pcl_sq::test::Random;
@@ -112,6 +114,32 @@ TEST(FullFit, DoesNotDependOnTheUnitThePlaceTheOrientationOrTheOrder) {
     // the noise allows 3e-5; the fit itself moves by its tolerance
     EXPECT_LT(hausdorff(random, back, expected.model), 2e-5);
     EXPECT_NEAR(s.sigma / UNIT, expected.sigma, 1e-3 * expected.sigma);
+  }
+}
+
+TEST(FullFit, ReadsACloudWhereItIsWithTheSameResult) {
+  // few points, and more than are all looked at; as in pcl::PointXYZ, four floats each
+  for (const int count : {300, 70000}) {
+    Random random(6);
+    const Superquadric truth = object(random);
+    Eigen::Matrix4Xf cloud = Eigen::Matrix4Xf::Ones(4, count);
+    cloud.topRows<3>() = surface(random, truth, count).cast<float>();
+    cloud.col(7).setConstant(std::numeric_limits<float>::quiet_NaN());
+    const Eigen::Matrix3Xd copy = cloud.topRows<3>().cast<double>();
+    const FitSummary expected = fitSuperquadric(copy);
+    const FitSummary s = fitSuperquadric(cloud.topRows<3>());
+    EXPECT_EQ(s.points, static_cast<std::size_t>(count - 1));
+    EXPECT_EQ(s.model.toCoefficients(), expected.model.toCoefficients());
+    EXPECT_LT(hausdorff(random, s.model, truth), 1e-4);
+    const FitSummary again = fitSuperquadric(cloud.topRows<3>(), s.model);
+    EXPECT_LT(hausdorff(random, again.model, truth), 1e-4);
+    EXPECT_EQ(surfaceDistances(truth, cloud.topRows<3>()),
+              surfaceDistances(truth, copy));
+    EXPECT_EQ(principalAxes(cloud.topRows<3>()), principalAxes(copy));
+    EXPECT_TRUE(spansVolume(cloud.topRows<3>()));
+    const MultiSuperquadric model{{truth}};
+    EXPECT_EQ(model.rmsDistance(cloud.topRows<3>()), model.rmsDistance(copy));
+    EXPECT_EQ(model.distortion(cloud.topRows<3>()), model.distortion(copy));
   }
 }
 

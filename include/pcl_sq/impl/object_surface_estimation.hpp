@@ -20,12 +20,11 @@ namespace detail {
 
 /** \brief The chosen points as columns. */
 template <typename PointT>
-Eigen::Matrix3Xd gatherPoints(const pcl::PointCloud<PointT>& cloud,
+Eigen::Matrix3Xf gatherPoints(const pcl::PointCloud<PointT>& cloud,
                               const pcl::Indices& indices) {
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices.size()));
+  Eigen::Matrix3Xf points(3, static_cast<Eigen::Index>(indices.size()));
   for (std::size_t i = 0; i < indices.size(); ++i)
-    points.col(static_cast<Eigen::Index>(i)) =
-        cloud[indices[i]].getVector3fMap().template cast<double>();
+    points.col(static_cast<Eigen::Index>(i)) = cloud[indices[i]].getVector3fMap();
   return points;
 }
 
@@ -232,8 +231,9 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
   if (regions.empty())
     regions.push_back(report_.region);
   // not in the call: the points would stay in memory during the fits
-  const Eigen::Matrix3d object_rotation =
-      principalAxes(detail::gatherPoints(*input_, *object));
+  Eigen::Matrix3d object_rotation = Eigen::Matrix3d::Identity();
+  if (options_.fit == FitMode::PAPER && options_.pca == PcaScope::OBJECT)
+    object_rotation = principalAxes(detail::gatherPoints(*input_, *object));
   const std::vector<PartFit> fits = pcl_sq::fitParts(
       regions,
       object_rotation,
@@ -263,7 +263,7 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
 template <typename PointT>
 void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
                                                const MultiSuperquadric& model) {
-  const Eigen::Matrix3Xd points = detail::gatherPoints(*input_, *object);
+  const Eigen::Matrix3Xf points = detail::gatherPoints(*input_, *object);
   report_.distortion = model.distortion(points);
   report_.rms_distance = model.rmsDistance(points);
 }

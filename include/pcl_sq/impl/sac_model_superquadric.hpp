@@ -54,14 +54,12 @@ void SampleConsensusModelSuperquadric<PointT>::setFitOptions(
 }
 
 template <typename PointT>
-Eigen::Matrix3Xd
+Eigen::Matrix3Xf
 SampleConsensusModelSuperquadric<PointT>::gather(const pcl::Indices& indices) const {
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices.size()));
+  Eigen::Matrix3Xf points(3, static_cast<Eigen::Index>(indices.size()));
   for (std::size_t i = 0; i < indices.size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) =
-        (*input_)[static_cast<std::size_t>(indices[i])]
-            .getVector3fMap()
-            .template cast<double>();
+        (*input_)[static_cast<std::size_t>(indices[i])].getVector3fMap();
   return points;
 }
 
