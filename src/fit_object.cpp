@@ -28,6 +28,9 @@ constexpr double MODEL_ERROR = 0.005;
 /** \brief What a depth image's neighbours share and their scatter does not show, over
  * the depth: locking to whole pixels, smoothing over the matched window. */
 constexpr double SENSOR_ERROR = 7e-4;
+/** \brief By how much measurements lie beside their pixels [px]: what a matching window
+ * takes from its side nearer to the camera, a depth camera's lateral noise. */
+constexpr double SIDEWAYS = 0.5;
 
 struct Split {
   Piece first, second;
@@ -112,12 +115,19 @@ Split bestSplit(const PieceContext& context,
 }
 
 /** \brief What a part's points leave open behind it, the whole object's may tell: no
- * part reaches much farther from the camera than the one superquadric of all points. */
-SupportPlane backOf(const Superquadric& whole, const ObservedObject& observed) {
+ * part reaches much farther from the camera than the one superquadric of all points, or
+ * the one solid of revolution, for where neither fits, the free one may be too flat. */
+SupportPlane backOf(const SupportFit& whole, const ObservedObject& observed) {
   SupportPlane back;
-  back.normal = (whole.center - observed.camera.center).normalized();
+  back.normal = (whole.fit.model.center - observed.camera.center).normalized();
   back.offset = 0.0;
-  back.offset = back.residual(whole) + BACK_SLACK * observed.extent;
+  double farthest = back.residual(whole.fit.model);
+  // bare points have no outline worth the name that would tell
+  if (!observed.pixels.cells.empty())
+    for (const ShapeCandidate& c : whole.candidates)
+      if (c.shape == ShapeClass::ROTATIONAL)
+        farthest = std::max(farthest, back.residual(c.model));
+  back.offset = farthest + BACK_SLACK * observed.extent;
   back.sigma = BACK_SIGMA * observed.extent;
   return back;
 }
@@ -181,6 +191,17 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
+/** \brief Of each point: the noise's variance over that and what slant adds. */
+std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
+  std::vector<float> precision;
+  if (!(noise > 0.0))
+    return precision;
+  for (const float error : observed.sideways)
+    precision.push_back(static_cast<float>(
+        1.0 / (1.0 + std::pow(SIDEWAYS * double(error) / noise, 2))));
+  return precision;
+}
+
 } // namespace
 
 bool ObjectFitOptions::isValid(std::string* why) const {
@@ -199,7 +220,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   const double noise = options.fit.noise > 0.0
                            ? options.fit.noise
                            : localNoise(observed.points, observed.effective_points);
-  PieceContext context{observed, options, 0.0, {}};
+  PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
   std::vector<Piece> pieces(1, wholePiece(context));
   fitPiece(context, pieces[0], Effort::FULL);
   if (!pieces[0].fit.fit.ok())
@@ -217,7 +238,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
     fit.single_bic = pieces[0].score;
     if (observed.hasCamera())
-      context.limits.push_back(backOf(pieces[0].fit.fit.model, observed));
+      context.limits.push_back(backOf(pieces[0].fit, observed));
     while (int(pieces.size()) < wanted) {
       Split best;
       std::size_t which = 0;

@@ -22,6 +22,10 @@ constexpr double MAX_COST = 9.2;
 /** \brief How far parts stick out where the object is hollow, over its size: what is no
  * superquadric cannot be followed closer. */
 constexpr double FREE_SIGMA = 0.03;
+/** \brief Largest exponent of a part that a cut ends: composite things are made of
+ * cans, boxes and balls. A pinched part follows errors of its points, and its hidden
+ * side comes out too flat. */
+constexpr double PART_EPSILON = 1.0;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
 
@@ -162,9 +166,14 @@ void fitPiece(const PieceContext& context,
   const Eigen::Matrix3Xd points = gather(context, piece.points);
   const double share = double(points.cols()) / double(o.points.cols());
   SupportFitOptions options = context.options.fit;
+  if (!o.pixels.cells.empty() && !piece.ends.empty())
+    options.max_epsilon = std::min(options.max_epsilon, PART_EPSILON);
   options.noise = context.noise;
   options.effective_points = std::max(12.0, share * o.effective_points);
   options.max_semi_axis = 1.5 * halfDiagonal(points);
+  if (!context.precision.empty())
+    for (const int i : piece.points)
+      options.precision.push_back(context.precision[std::size_t(i)]);
   if (coaxial)
     options.coaxial = *coaxial;
   if (effort == Effort::QUICK) {

@@ -32,6 +32,7 @@ struct PieceContext {
   const ObservedObject& observed;
   const ObjectFitOptions& options;
   double noise;                     ///< of the points [m]
+  std::vector<float> precision;     ///< of the observed points; may be empty
   std::vector<SupportPlane> limits; ///< half-spaces that hold every part, roughly
 };
 

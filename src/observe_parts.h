@@ -32,6 +32,10 @@ inline double standingHeight(const TableModel& table, double depth) {
   return std::max(4.0 * table.noise, 0.003 * depth);
 }
 
+/** \brief How far each point's surface moves along its normal when the measurement
+ * belongs a pixel beside the point's own [m]. */
+Eigen::VectorXf sidewaysErrors(const Observation& o);
+
 /** \brief Extent and depth from the points. */
 void measure(ObservedObject& observed);
 

@@ -64,6 +64,13 @@ bool SupportProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   all_ = detail::toUnit(points, frame_);
   if (all_.size() < MIN_POINTS)
     return false;
+  if (options.precision.size() == std::size_t(points.cols())) {
+    std::vector<float> precision;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      if (points.col(i).allFinite())
+        precision.push_back(options.precision[std::size_t(i)]);
+    all_.setPrecision(precision);
+  }
   medium_ = subset(all_, MEDIUM_POINTS);
   coarse_ = subset(medium_, COARSE_POINTS);
   cost_.silhouette = toUnit(evidence.silhouette, frame_);

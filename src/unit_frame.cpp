@@ -46,10 +46,13 @@ void forEachInUnit(const Points& points, const UnitFrame& frame, const Use& use)
 }
 
 /** \brief The \a count points of the smallest hashes among \a total.
- * \param[in] for_each calls its argument with each point */
+ * \param[in] for_each calls its argument with each point \param[out] which the points'
+ * places among all, unless nullptr */
 template <typename ForEach>
-UnitPoints
-smallestHashes(std::size_t total, std::size_t count, const ForEach& for_each) {
+UnitPoints smallestHashes(std::size_t total,
+                          std::size_t count,
+                          const ForEach& for_each,
+                          std::vector<std::uint32_t>* which = nullptr) {
   struct Hashed {
     std::uint32_t hash, order;
     Eigen::Vector3f point;
@@ -82,6 +85,8 @@ smallestHashes(std::size_t total, std::size_t count, const ForEach& for_each) {
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f& p = candidates[i].point;
     chosen.add(p[0], p[1], p[2]);
+    if (which)
+      which->push_back(candidates[i].order);
   }
   return chosen;
 }
@@ -170,10 +175,22 @@ UnitPoints toUnit(const Points& points, const UnitFrame& frame) {
 UnitPoints subset(const UnitPoints& points, std::size_t count) {
   if (points.size() <= count)
     return points;
-  return smallestHashes(points.size(), count, [&points](const auto& use) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      use(points[i]);
-  });
+  std::vector<std::uint32_t> order;
+  UnitPoints chosen = smallestHashes(
+      points.size(),
+      count,
+      [&points](const auto& use) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+          use(points[i]);
+      },
+      &order);
+  if (const float* precision = points.view().precision) {
+    std::vector<float> taken;
+    for (const std::uint32_t i : order)
+      taken.push_back(precision[i]);
+    chosen.setPrecision(taken);
+  }
+  return chosen;
 }
 
 template <typename Points>

@@ -55,7 +55,11 @@ PCL_SQ_EXPORTS const char* toString(OutlineSource source);
 struct PCL_SQ_EXPORTS ObservedObject {
   Eigen::Matrix3Xd points;  ///< to be fitted, free of rim and gross outliers [m]
   std::vector<int> columns; ///< the points' columns in the input
-  PinholeCamera camera;     ///< real, or virtual for bare points
+  /** \brief Of each point how far its surface lies off where its measurement belongs
+   * one pixel beside it: the pixel's size times the sine of the slant [m]. Matching
+   * windows and depth cameras err so by about a pixel. Empty for bare points. */
+  Eigen::VectorXf sideways;
+  PinholeCamera camera; ///< real, or virtual for bare points
   std::vector<ContourPoint> contour;
   OutlineSource outline = OutlineSource::NONE;
   double outline_sigma = 0.6;     ///< [px]

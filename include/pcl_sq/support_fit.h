@@ -44,6 +44,8 @@ struct ShapeCandidate {
 /** \brief Settings of fitWithSupports(). */
 struct PCL_SQ_EXPORTS SupportFitOptions {
   double noise = 0.0; ///< standard deviation of the points [m]; 0: estimated
+  /** \brief Variance of the noise over that of each point; empty: all one. */
+  std::vector<float> precision;
   /** \brief Points that carry as much information as all of them, for neighbours in a
    * disparity image share their errors; 0: as many as there are. */
   double effective_points = 0.0;

@@ -55,6 +55,31 @@ TEST(ObserveObject, ObjectOnATableNeedsNoMask) {
   EXPECT_GT(observed.pixels.count(), scene.mask.count() * 3 / 4);
 }
 
+TEST(ObserveObject, APixelBesideCostsItsSizeTimesTheSineOfTheSlant) {
+  ViewScene scene;
+  scene.addUpright({0.06, 0.06, 0.06}, 1.0, 1.0, 0.06);
+  scene.render(0.0);
+  ViewOptions view;
+  view.mask = scene.mask;
+  ObservedObject observed;
+  ASSERT_TRUE(observe(scene, view, observed));
+  ASSERT_EQ(observed.sideways.size(), observed.points.cols());
+  const Superquadric& ball = scene.object.parts[0];
+  int compared = 0;
+  for (Eigen::Index i = 0; i < observed.points.cols(); ++i) {
+    const Eigen::Vector3d p = observed.points.col(i);
+    const Eigen::Vector3d ray = (p - observed.camera.center).normalized();
+    const double cosine = -(p - ball.center).normalized().dot(ray);
+    if (cosine < 0.6) // nearer to the outline half of the window is empty
+      continue;
+    const double pixel = observed.camera.depthOf(p) / observed.camera.fx;
+    EXPECT_NEAR(
+        observed.sideways[i], pixel * std::sqrt(1 - cosine * cosine), 0.15 * pixel);
+    ++compared;
+  }
+  EXPECT_GT(compared, 300);
+}
+
 TEST(ObserveObject, MaskOfAnotherSizeIsRefused) {
   const ViewScene scene = canScene();
   ViewOptions view;

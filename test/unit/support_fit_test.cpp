@@ -91,6 +91,27 @@ TEST(SupportFit, ResultDoesNotDependOnTheFrame) {
             0.001);
 }
 
+TEST(SupportFit, PointsOfNoPrecisionHaveNoSay) {
+  Random random(12);
+  Superquadric truth;
+  truth.semi_axes = {0.03, 0.05, 0.07};
+  truth.epsilon1 = truth.epsilon2 = 0.6;
+  Eigen::Matrix3Xd points(3, 600);
+  SupportFitOptions options;
+  options.noise = 0.001;
+  for (int i = 0; i < points.cols(); ++i) {
+    // every other point lies a noise's width outside: no outlier, but wrong
+    const double scale = i % 2 ? 1.05 : 1.0;
+    points.col(i) = scale * random.surfacePoint(truth);
+    options.precision.push_back(i % 2 ? 1e-6F : 1.0F);
+  }
+  const SupportFit weighted = fitWithSupports(points, {}, options);
+  EXPECT_NEAR(weighted.fit.model.volume(), truth.volume(), 0.002 * truth.volume());
+  options.precision.clear();
+  const SupportFit even = fitWithSupports(points, {}, options);
+  EXPECT_GT(even.fit.model.volume(), 1.03 * truth.volume());
+}
+
 TEST(SupportFit, TooFewPointsGiveNoModel) {
   const SupportFit fit = fitWithSupports(Eigen::Matrix3Xd::Random(3, 5), {});
   EXPECT_FALSE(fit.fit.ok());
