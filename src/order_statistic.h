@@ -18,7 +18,9 @@ namespace pcl_sq::detail {
 inline double
 orderStatistic(double* values, double* spare, std::size_t count, std::size_t index) {
   for (;;) {
-    const double a = values[0], b = values[count / 2], c = values[count - 1];
+    // none of the ends: along the rows of an image they are alike, and extreme
+    const double a = values[count / 4], b = values[count / 2],
+                 c = values[3 * count / 4];
     const double pivot = std::max(std::min(a, b), std::min(std::max(a, b), c));
     std::size_t less = 0, greater = 0;
     for (std::size_t i = 0; i < count; ++i) {
