@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_piece.h"
+#include "order_statistic.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -27,19 +28,31 @@ double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   std::vector<double> deviations;
   const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
   const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
-  std::vector<std::pair<double, Eigen::Index>> near;
+  std::vector<double> square_distances, spare, values;
+  std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < n; i += step) {
-    near.clear();
+    square_distances.clear();
     for (Eigen::Index k = 0; k < n; k += stride)
-      near.emplace_back((points.col(k) - points.col(i)).squaredNorm(), k);
-    std::nth_element(
-        near.begin(), near.begin() + std::ptrdiff_t(neighbours), near.end());
+      square_distances.push_back((points.col(k) - points.col(i)).squaredNorm());
+    values = square_distances;
+    spare.resize(values.size());
+    const double farthest =
+        orderStatistic(values.data(), spare.data(), values.size(), neighbours - 1);
+    near.clear();
+    const auto take = [&](const auto& wanted) {
+      for (std::size_t k = 0; k < square_distances.size() && near.size() < neighbours;
+           ++k)
+        if (wanted(square_distances[k]))
+          near.push_back(Eigen::Index(k) * stride);
+    };
+    take([farthest](double d) { return d < farthest; });
+    take([farthest](double d) { return d == farthest; });
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     for (std::size_t k = 0; k < neighbours; ++k)
-      mean += points.col(near[k].second) / double(neighbours);
+      mean += points.col(near[k]) / double(neighbours);
     for (std::size_t k = 0; k < neighbours; ++k) {
-      const Eigen::Vector3d d = points.col(near[k].second) - mean;
+      const Eigen::Vector3d d = points.col(near[k]) - mean;
       square += d * d.transpose() / double(neighbours - 3);
     }
     const double smallest =

@@ -105,10 +105,12 @@ Piece wholePiece(const PieceContext& context) {
     piece.points.push_back(static_cast<int>(i));
   piece.contour = context.observed.contour;
   const CellMask& mask = context.observed.pixels;
+  const CellRect box = boundingRect(mask);
   const int step = std::max(
       1, static_cast<int>(std::sqrt(double(mask.count()) / double(PIXEL_SAMPLE))));
-  for (int y = 0; y < mask.height; y += step)
-    for (int x = 0; x < mask.width; x += step)
+  const auto onGrid = [step](int from) { return (from + step - 1) / step * step; };
+  for (int y = onGrid(box.y); y < box.y + box.height; y += step)
+    for (int x = onGrid(box.x); x < box.x + box.width; x += step)
       if (mask.cells[mask.indexOf(x, y)])
         piece.pixels.emplace_back(x, y);
   if (context.observed.hasCamera() && piece.pixels.empty())

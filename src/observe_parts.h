@@ -23,6 +23,24 @@ struct Observation {
 [[nodiscard]] bool observeImage(Observation& o, std::string& why);
 [[nodiscard]] bool observeBare(Observation& o, std::string& why);
 
+class DepthPatch;
+constexpr int MIN_IMAGE_POINTS = 30; ///< of an object in an image
+
+/** \brief The object's points that are to be fitted, their columns and effective
+ * number. \param[in] box of the object's pixels \param[in] rim pixels beside the
+ * outline that are left out while enough remain */
+void choosePoints(Observation& o,
+                  const CellRect& box,
+                  const DepthPatch& patch,
+                  int rim);
+/** \brief The table from the points around the object. */
+void findTable(Observation& o, const CellRect& box);
+/** \brief Pixels beside the object's through which the background is seen.
+ * \param[in] margin pixels beside the outline that may be either's */
+void findFreePixels(Observation& o, const CellRect& box, int margin);
+/** \brief Whether something nearer than the object hides it beyond a contour pixel. */
+bool occluded(const Observation& o, const DepthPatch& patch, int x, int y);
+
 /** \brief Checks a table against the object's points; drops it with a note if they lie
  * below it. */
 void checkTable(ObservedObject& observed);

@@ -55,8 +55,9 @@ PinholeCamera PinholeCamera::lookingAt(const Eigen::Vector3d& center,
 std::vector<ContourPoint> contourOf(const CellMask& mask,
                                     const std::function<bool(int x, int y)>& foreign) {
   std::vector<ContourPoint> contour;
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x) {
+  const CellRect box = boundingRect(mask); // small in most images
+  for (int y = box.y; y < box.y + box.height; ++y)
+    for (int x = box.x; x < box.x + box.width; ++x) {
       if (!mask.cells[mask.indexOf(x, y)] ||
           (mask(x - 1, y) && mask(x + 1, y) && mask(x, y - 1) && mask(x, y + 1)))
         continue;

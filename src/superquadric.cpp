@@ -179,10 +179,17 @@ Eigen::Vector3d Superquadric::supportPoint(const Eigen::Vector3d& direction) con
 
 SuperquadricCoefficients
 Superquadric::supportJacobian(const Eigen::Vector3d& direction) const {
+  double h;
+  return supportJacobian(direction, h);
+}
+
+SuperquadricCoefficients Superquadric::supportJacobian(const Eigen::Vector3d& direction,
+                                                       double& support) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
   const LogGauge g = logSupport(*this, u);
   const double h = std::exp(g.value);
-  const Eigen::Vector3d contact = contactPoint(g, u);
+  support = u.isZero(0.0) ? 0.0 : h;
+  const Eigen::Vector3d contact = h * detail::logGaugeGradient(g, u);
   SuperquadricCoefficients jacobian;
   jacobian.segment<3>(0) = u;
   jacobian.segment<3>(3) = contact.cross(u);

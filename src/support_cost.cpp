@@ -14,8 +14,9 @@ void SupportCost::operator()(const Superquadric& body, NormalEquations& e) const
   double sum = 0.0, precision = 0.0;
   for (const SupportPlane& plane : silhouette) {
     const double weight = unit / plane.sigma;
-    const double z = weight * plane.residual(body);
-    const Vector11 row = weight * plane.jacobian(body);
+    double residual;
+    const Vector11 row = weight * plane.jacobian(body, residual);
+    const double z = weight * residual;
     e.addRow(row, z);
     sum += z / plane.sigma;
     precision += 1.0 / (plane.sigma * plane.sigma);
@@ -29,7 +30,9 @@ void SupportCost::operator()(const Superquadric& body, NormalEquations& e) const
   }
   for (const SupportPlane& plane : tangents) {
     const double weight = unit / plane.sigma;
-    e.addRow(weight * plane.jacobian(body), weight * plane.residual(body));
+    double residual;
+    const Vector11 slope_of_plane = plane.jacobian(body, residual);
+    e.addRow(weight * slope_of_plane, weight * residual);
   }
   for (const SupportPlane& plane : limits) {
     const double residual = plane.residual(body);

@@ -67,4 +67,28 @@ struct CellMask {
   }
 };
 
+/** \brief Smallest rectangle that holds all set cells; of no size where there are none.
+ */
+inline CellRect boundingRect(const CellMask& mask) {
+  int x0 = mask.width, x1 = -1, y0 = 0, y1 = -1;
+  for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = mask.cells.data() + mask.indexOf(0, y);
+    std::uint8_t any = 0; // most rows are empty: seen at once, many cells at a time
+    for (int x = 0; x < mask.width; ++x)
+      any = static_cast<std::uint8_t>(any | row[x]);
+    if (!any)
+      continue;
+    y0 = y1 < 0 ? y : y0;
+    y1 = y;
+    int first = 0, last = mask.width - 1;
+    while (!row[first])
+      ++first;
+    while (!row[last])
+      --last;
+    x0 = std::min(x0, first);
+    x1 = std::max(x1, last);
+  }
+  return y1 < 0 ? CellRect{} : CellRect{x0, y0, x1 - x0 + 1, y1 - y0 + 1};
+}
+
 } // namespace pcl_sq

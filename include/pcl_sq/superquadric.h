@@ -111,6 +111,10 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Derivatives of n.center + h(n), n fixed in the cloud's frame, in the order
    * of logGaugeJacobian(). */
   SuperquadricCoefficients supportJacobian(const Eigen::Vector3d& direction) const;
+  /** \brief The same together with support(), which costs next to nothing beside it.
+   * \param[out] support h(n) [m] */
+  SuperquadricCoefficients supportJacobian(const Eigen::Vector3d& direction,
+                                           double& support) const;
   /** \brief Exact axis-aligned bounding box in the cloud's frame. */
   Eigen::AlignedBox3d boundingBox() const;
 

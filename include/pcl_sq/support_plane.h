@@ -22,6 +22,14 @@ struct PCL_SQ_EXPORTS SupportPlane {
   SuperquadricCoefficients jacobian(const Superquadric& body) const {
     return body.supportJacobian(normal);
   }
+  /** \brief The same together with residual(), for the price of one of the two.
+   * \param[out] residual [m] */
+  SuperquadricCoefficients jacobian(const Superquadric& body, double& residual) const {
+    double support;
+    const SuperquadricCoefficients slope = body.supportJacobian(normal, support);
+    residual = normal.dot(body.center) + support - offset;
+    return slope;
+  }
 };
 
 } // namespace pcl_sq

@@ -211,3 +211,13 @@ TEST(SupportCost, GradientAgreesWithCentralDifferences) {
     EXPECT_NEAR(2.0 * e.jtr[k], slope, 1e-3 * (1.0 + std::abs(slope))) << k;
   }
 }
+
+TEST(CellMask, BoundingRectHoldsTheSetCells) {
+  CellMask mask(20, 12);
+  EXPECT_EQ(boundingRect(mask).area(), 0);
+  mask.set(7, 3);
+  EXPECT_EQ(boundingRect(mask), (CellRect{7, 3, 1, 1}));
+  mask.set(19, 11);
+  mask.set(2, 5);
+  EXPECT_EQ(boundingRect(mask), (CellRect{2, 3, 18, 9}));
+}
