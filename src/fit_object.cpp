@@ -2,6 +2,7 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "all_round.h"
 #include "object_piece.h"
 #include "option_check.h"
 #include "parallel_for.h"
@@ -218,7 +219,13 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     fit.single_bic = pieces[0].score;
     if (observed.hasCamera())
       context.limits.push_back(backOf(pieces[0].fit.fit.model, observed));
-    while (int(pieces.size()) < wanted) {
+    else
+      pieces = splitAllRound(context,
+                             std::move(pieces[0]),
+                             wanted,
+                             options.parts > 0,
+                             min_gain);
+    while (observed.hasCamera() && int(pieces.size()) < wanted) {
       Split best;
       std::size_t which = 0;
       double gain = options.parts > 0 ? -1e300 : min_gain;
@@ -244,7 +251,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       pieces[which] = best.first;
       pieces.push_back(best.second);
     }
-    if (options.parts == 0)
+    if (options.parts == 0 && observed.hasCamera())
       mergeParts(context, pieces, min_gain);
     finish(context, pieces);
   }
