@@ -12,17 +12,19 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t TRIED = 3; ///< best proposals that are fitted in full
-constexpr int ROUNDS = 3;        ///< of assigning points and fitting again
+constexpr std::size_t MIN_POINTS = 24;
+constexpr int ROUNDS = 3; ///< of assigning points and fitting again
 /** \brief Density of outliers over the Gaussian's peak, as in the fits. */
 constexpr double OUTLIER = 0.01;
-/** \brief Score by which a quick fit of two parts as one may be worse: a full fit finds
- * about as much. */
+/** \brief Score by which a quick fit, to a sample of the points, may be worse than what
+ * the full one is to beat. */
 constexpr double QUICK_SLACK = 60.0;
 
 /** \brief A description of the object and its score, smaller is better. */
 struct Parts {
   std::vector<Piece> pieces;
   double score = 1e300;
+  std::size_t cut = 0; ///< the piece that was cut last, the last one being its rest
 };
 
 /** \brief Minus twice the logarithm of the likelihood, plus the parameters' price.
@@ -52,15 +54,45 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
          parameters * std::log(1.0 + o.effective_points);
 }
 
+/** \brief Gives each point to the part with the nearest surface; a part keeps what
+ * noise cannot tell. \return whether a point changed its part and no part lost nearly
+ * all */
+bool assignPoints(const PieceContext& context, std::vector<Piece>& pieces) {
+  const Eigen::Index n = context.observed.points.cols();
+  Eigen::VectorXd nearest = Eigen::VectorXd::Constant(n, 1e300);
+  std::vector<std::size_t> owner(static_cast<std::size_t>(n), 0);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    Eigen::VectorXd distances =
+        surfaceDistances(pieces[k].fit.fit.model, context.observed.points).cwiseAbs();
+    for (const int i : pieces[k].points)
+      distances[i] -= context.noise;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (distances[i] < nearest[i]) {
+        nearest[i] = distances[i];
+        owner[static_cast<std::size_t>(i)] = k;
+      }
+  }
+  std::vector<std::vector<int>> points(pieces.size());
+  bool changed = false;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const int i : pieces[k].points) {
+      points[owner[static_cast<std::size_t>(i)]].push_back(i);
+      changed = changed || owner[static_cast<std::size_t>(i)] != k;
+    }
+  for (const auto& list : points)
+    if (list.size() < MIN_POINTS)
+      return false;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    pieces[k].points.swap(points[k]);
+  return changed;
+}
+
 /** \brief Gives points to the nearest part and fits the parts again while that pays. */
 void settle(const PieceContext& context, Parts& parts) {
   parts.score = scoreOf(context, parts.pieces);
   for (int round = 0; round < ROUNDS && parts.score < 1e299; ++round) {
     Parts next = parts;
-    std::vector<Piece*> all;
-    for (Piece& piece : next.pieces)
-      all.push_back(&piece);
-    if (assignPoints(context, all) == 0)
+    if (!assignPoints(context, next.pieces))
       return;
     for (std::size_t k = 0; k < next.pieces.size(); ++k)
       if (next.pieces[k].points != parts.pieces[k].points)
@@ -73,7 +105,10 @@ void settle(const PieceContext& context, Parts& parts) {
 }
 
 /** \brief The best way to cut one of the parts in two; score 1e300 if there is none. */
-Parts bestSplit(const PieceContext& context, const Parts& parts, std::size_t which) {
+Parts bestSplit(const PieceContext& context,
+                const Parts& parts,
+                std::size_t which,
+                double limit) {
   const std::vector<Cut> cuts = proposeCuts(context, parts.pieces[which]);
   const unsigned int threads = context.options.fit.threads;
   std::vector<Parts> tries(cuts.size());
@@ -85,16 +120,16 @@ Parts bestSplit(const PieceContext& context, const Parts& parts, std::size_t whi
     fitPiece(context, first, Effort::QUICK);
     fitPiece(context, second, Effort::QUICK);
     tries[i] = parts;
+    tries[i].cut = which;
     tries[i].pieces[which] = std::move(first);
     tries[i].pieces.push_back(std::move(second));
     tries[i].score = scoreOf(context, tries[i].pieces);
   });
   const auto better = [](const Parts& a, const Parts& b) { return a.score < b.score; };
   std::sort(tries.begin(), tries.end(), better);
-  tries.resize(std::min(tries.size(), TRIED));
+  while (!tries.empty() && (tries.size() > TRIED || tries.back().score > limit))
+    tries.pop_back();
   parallelFor(tries.size(), threads, [&](std::size_t i) {
-    if (tries[i].score > 1e299)
-      return;
     fitPiece(context, tries[i].pieces[which], Effort::FULL);
     fitPiece(context, tries[i].pieces.back(), Effort::FULL);
     settle(context, tries[i]);
@@ -103,20 +138,36 @@ Parts bestSplit(const PieceContext& context, const Parts& parts, std::size_t whi
   return best == tries.end() ? Parts() : std::move(*best);
 }
 
-/** \brief Cuts the part for which that pays most. \return whether one was cut */
-bool splitOnce(const PieceContext& context, Parts& parts, bool forced, double min_gain) {
+/** \brief Cuts the part for which that pays most, or one twice where only that pays:
+ * one cut of a handle with two corners helps little. \param[in] room how many parts may
+ * be added \return whether one was cut */
+bool splitOnce(
+    const PieceContext& context, Parts& parts, int room, bool forced, double min_gain) {
   Parts best;
   for (std::size_t k = 0; k < parts.pieces.size(); ++k) {
     if (parts.pieces[k].final && !forced)
       continue;
-    Parts split = bestSplit(context, parts, k);
+    Parts split =
+        bestSplit(context, parts, k, forced ? 1e299 : parts.score + QUICK_SLACK);
     if (split.score < best.score)
       best = split;
     if (!(split.score < parts.score - min_gain))
       parts.pieces[k].final = true;
   }
-  if (best.score > (forced ? 1e299 : parts.score - min_gain))
-    return false;
+  const double limit = forced ? 1e299 : parts.score - min_gain;
+  if (best.score > limit) {
+    if (forced || room < 2 || best.score > 1e299)
+      return false;
+    const std::size_t second = best.pieces.size() - 1;
+    Parts twice;
+    for (const std::size_t k : {best.cut, second})
+      if (Parts split = bestSplit(context, best, k, best.score);
+          split.score < twice.score)
+        twice = std::move(split);
+    if (twice.score > limit - min_gain)
+      return false;
+    best = std::move(twice);
+  }
   for (std::size_t k = 0; k < parts.pieces.size(); ++k)
     best.pieces[k].final =
         parts.pieces[k].final && best.pieces[k].points == parts.pieces[k].points;
@@ -158,8 +209,9 @@ std::vector<Piece> splitAllRound(const PieceContext& context,
   Parts parts;
   parts.pieces.push_back(std::move(whole));
   parts.score = scoreOf(context, parts.pieces);
-  while (int(parts.pieces.size()) < wanted &&
-         splitOnce(context, parts, exactly, min_gain)) {
+  while (
+      int(parts.pieces.size()) < wanted &&
+      splitOnce(context, parts, wanted - int(parts.pieces.size()), exactly, min_gain)) {
   }
   while (!exactly && parts.pieces.size() > 1 && mergeOnce(context, parts, min_gain)) {
   }

@@ -12,9 +12,61 @@ namespace {
 constexpr Eigen::Index SAMPLES = 100;
 constexpr Eigen::Index MAX_POINTS = 3000;
 constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
-constexpr double SHARING = 5.0; ///< points of one error for which the fewest suffice
+constexpr std::size_t CURVED = 32; ///< neighbours through which a curved surface goes
+constexpr double SHARING = 5.0;    ///< points of one error for which the fewest suffice
+
+/** \brief The nearest of every stride-th point to the i-th one. */
+std::vector<Eigen::Index> neighboursOf(const Eigen::Matrix3Xd& points,
+                                       Eigen::Index i,
+                                       Eigen::Index stride,
+                                       std::size_t count) {
+  std::vector<std::pair<double, Eigen::Index>> near;
+  for (Eigen::Index k = 0; k < points.cols(); k += stride)
+    near.emplace_back((points.col(k) - points.col(i)).squaredNorm(), k);
+  std::nth_element(near.begin(), near.begin() + std::ptrdiff_t(count), near.end());
+  std::vector<Eigen::Index> columns;
+  for (std::size_t k = 0; k < count; ++k)
+    columns.push_back(near[k].second);
+  return columns;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 } // namespace
+
+double curvedNoise(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index n = points.cols();
+  if (n < Eigen::Index(2 * CURVED))
+    return 0.0;
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
+  std::vector<double> deviations;
+  for (Eigen::Index i = 0; i < n; i += step) {
+    const std::vector<Eigen::Index> near = neighboursOf(points, i, stride, CURVED);
+    Eigen::Matrix3Xd local(3, Eigen::Index(CURVED));
+    for (std::size_t k = 0; k < CURVED; ++k)
+      local.col(Eigen::Index(k)) = points.col(near[k]);
+    local.colwise() -= local.rowwise().mean().eval();
+    // across the smallest spread, the surface is a quadratic function
+    local = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(local * local.transpose())
+                .eigenvectors()
+                .transpose() *
+            local;
+    const auto u = local.row(1).transpose().array() / local.norm();
+    const auto v = local.row(2).transpose().array() / local.norm();
+    Eigen::Matrix<double, Eigen::Dynamic, 6> terms(local.cols(), 6);
+    terms << Eigen::VectorXd::Ones(local.cols()), u, v, u * u, u * v, v * v;
+    const Eigen::VectorXd height = local.row(0).transpose();
+    const Eigen::VectorXd residuals =
+        height - terms * terms.colPivHouseholderQr().solve(height);
+    deviations.push_back(residuals.norm() / std::sqrt(double(CURVED - 6)));
+  }
+  return median(std::move(deviations));
+}
 
 double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   const Eigen::Index n = points.cols();
@@ -27,19 +79,14 @@ double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   std::vector<double> deviations;
   const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
   const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
-  std::vector<std::pair<double, Eigen::Index>> near;
   for (Eigen::Index i = 0; i < n; i += step) {
-    near.clear();
-    for (Eigen::Index k = 0; k < n; k += stride)
-      near.emplace_back((points.col(k) - points.col(i)).squaredNorm(), k);
-    std::nth_element(
-        near.begin(), near.begin() + std::ptrdiff_t(neighbours), near.end());
+    const std::vector<Eigen::Index> near = neighboursOf(points, i, stride, neighbours);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     for (std::size_t k = 0; k < neighbours; ++k)
-      mean += points.col(near[k].second) / double(neighbours);
+      mean += points.col(near[k]) / double(neighbours);
     for (std::size_t k = 0; k < neighbours; ++k) {
-      const Eigen::Vector3d d = points.col(near[k].second) - mean;
+      const Eigen::Vector3d d = points.col(near[k]) - mean;
       square += d * d.transpose() / double(neighbours - 3);
     }
     const double smallest =
@@ -47,10 +94,7 @@ double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
             .eigenvalues()[0];
     deviations.push_back(std::sqrt(std::max(smallest, 0.0)));
   }
-  const auto middle =
-      deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return *middle;
+  return median(std::move(deviations));
 }
 
 } // namespace pcl_sq::detail
