@@ -2,6 +2,7 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "all_round.h"
 #include "object_piece.h"
 #include "option_check.h"
 #include "parallel_for.h"
@@ -21,7 +22,6 @@ constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own er
 constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
-constexpr int ROUNDS = 3;           ///< of assigning points and fitting again
 /** \brief Things are no superquadrics: their surface's distance to the best one, over
  * the object's size. */
 constexpr double MODEL_ERROR = 0.005;
@@ -63,26 +63,9 @@ const Superquadric* axisOf(const Piece& piece) {
 }
 
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
-  // without an outline only many starts find a part of a full cloud
-  const Effort effort = context.observed.hasCamera() ? Effort::AGAIN : Effort::FULL;
-  fitPiece(context, s.first, effort, axis);
-  fitPiece(context, s.second, effort, axis ? axis : axisOf(s.first));
+  fitPiece(context, s.first, Effort::AGAIN, axis);
+  fitPiece(context, s.second, Effort::AGAIN, axis ? axis : axisOf(s.first));
   s.score = s.first.score + s.second.score;
-  // the cut is only where the parts were looked for: the surfaces say what is whose
-  const int rounds =
-      context.observed.hasCamera() ? 0 : ROUNDS; // the outline is cut, too
-  for (int round = 0; round < rounds; ++round) {
-    Split next = s;
-    const std::size_t changed = assignPoints(context, {&next.first, &next.second});
-    if (100 * changed < next.first.points.size() + next.second.points.size())
-      break;
-    fitPiece(context, next.first, Effort::AGAIN, axis);
-    fitPiece(context, next.second, Effort::AGAIN, axis ? axis : axisOf(next.first));
-    next.score = next.first.score + next.second.score;
-    if (!(next.score < s.score))
-      break;
-    s = next;
-  }
 }
 
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
@@ -171,6 +154,42 @@ std::size_t largestOfRevolution(const std::vector<Piece>& pieces) {
   return largest;
 }
 
+/** \brief Cuts pieces of an object that a camera saw while that pays. */
+void splitView(const PieceContext& context,
+               std::vector<Piece>& pieces,
+               int wanted,
+               double min_gain) {
+  const bool exactly = context.options.parts > 0;
+  while (int(pieces.size()) < wanted) {
+    Split best;
+    std::size_t which = 0;
+    double gain = exactly ? -1e300 : min_gain;
+    const std::size_t main = largestOfRevolution(pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      Piece& piece = pieces[i];
+      const bool good = piece.misfit < GOOD_FIT * observations(context, piece);
+      if (piece.final || (good && !exactly))
+        continue;
+      Split s =
+          bestSplit(context,
+                    piece,
+                    main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr);
+      if (piece.score - s.score > gain) {
+        gain = piece.score - s.score;
+        best = std::move(s);
+        which = i;
+      } else if (!exactly)
+        piece.final = true;
+    }
+    if (best.score > 1e299)
+      break;
+    pieces[which] = best.first;
+    pieces.push_back(best.second);
+  }
+  if (!exactly)
+    mergeParts(context, pieces, min_gain);
+}
+
 /** \brief Last fits of all parts. They share the axis of the largest solid of
  * revolution among them where the data agree: what one part's points leave open,
  * another's may tell. */
@@ -217,9 +236,11 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   ObjectFit fit;
   if (spannedDimensions(observed.points) < 3)
     return fit;
-  const double noise = options.fit.noise > 0.0
-                           ? options.fit.noise
-                           : localNoise(observed.points, observed.effective_points);
+  double noise = options.fit.noise;
+  if (!(noise > 0.0))
+    noise = observed.hasCamera()
+                ? localNoise(observed.points, observed.effective_points)
+                : curvedNoise(observed.points);
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
   std::vector<Piece> pieces(1, wholePiece(context));
   fitPiece(context, pieces[0], Effort::FULL);
@@ -237,36 +258,12 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
     fit.single_bic = pieces[0].score;
-    if (observed.hasCamera())
+    if (observed.hasCamera()) {
       context.limits.push_back(backOf(pieces[0].fit, observed));
-    while (int(pieces.size()) < wanted) {
-      Split best;
-      std::size_t which = 0;
-      double gain = options.parts > 0 ? -1e300 : min_gain;
-      const std::size_t main = largestOfRevolution(pieces);
-      for (std::size_t i = 0; i < pieces.size(); ++i) {
-        Piece& piece = pieces[i];
-        const bool good = piece.misfit < GOOD_FIT * observations(context, piece);
-        if (piece.final || (good && options.parts == 0))
-          continue;
-        Split s = bestSplit(context,
-                            piece,
-                            main < pieces.size() && main != i ? axisOf(pieces[main])
-                                                              : nullptr);
-        if (piece.score - s.score > gain) {
-          gain = piece.score - s.score;
-          best = std::move(s);
-          which = i;
-        } else if (options.parts == 0)
-          piece.final = true;
-      }
-      if (best.score > 1e299)
-        break;
-      pieces[which] = best.first;
-      pieces.push_back(best.second);
-    }
-    if (options.parts == 0)
-      mergeParts(context, pieces, min_gain);
+      splitView(context, pieces, wanted, min_gain);
+    } else
+      pieces = splitAllRound(
+          context, std::move(pieces[0]), wanted, options.parts > 0, min_gain);
     finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);

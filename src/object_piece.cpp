@@ -176,6 +176,7 @@ void fitPiece(const PieceContext& context,
   if (!context.precision.empty())
     for (const int i : piece.points)
       options.precision.push_back(context.precision[std::size_t(i)]);
+  options.all_points = !o.hasCamera() && effort != Effort::QUICK;
   if (coaxial)
     options.coaxial = *coaxial;
   if (effort == Effort::QUICK) {
@@ -227,34 +228,6 @@ void fitPiece(const PieceContext& context,
 
 bool coversFreePixels(const Piece& piece) {
   return piece.covered >= WORTH_A_ROUND;
-}
-
-std::size_t assignPoints(const PieceContext& context,
-                         const std::vector<Piece*>& pieces) {
-  std::vector<std::vector<int>> points(pieces.size());
-  std::size_t changed = 0;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    for (const int i : pieces[k]->points) {
-      const Eigen::Vector3d p = context.observed.points.col(i);
-      // the own piece keeps what noise cannot tell
-      std::size_t nearest = k;
-      double best =
-          std::abs(pieces[k]->fit.fit.model.footPointDistance(p)) - context.noise;
-      for (std::size_t j = 0; j < pieces.size(); ++j)
-        if (const double d = std::abs(pieces[j]->fit.fit.model.footPointDistance(p));
-            j != k && d < best) {
-          best = d;
-          nearest = j;
-        }
-      points[nearest].push_back(i);
-      changed += nearest != k;
-    }
-  for (const auto& list : points)
-    if (list.size() < MIN_POINTS)
-      return 0;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    pieces[k]->points.swap(points[k]);
-  return changed;
 }
 
 Piece mergePieces(const Piece& a, const Piece& b) {

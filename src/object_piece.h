@@ -63,15 +63,14 @@ void fitPiece(const PieceContext& context,
 /** \brief Whether holding a piece off the free pixels is worth a fit. */
 [[nodiscard]] bool coversFreePixels(const Piece& piece);
 
-/** \brief Gives each point to the piece with the nearest surface. \return how many
- * points changed their piece */
-std::size_t assignPoints(const PieceContext& context,
-                         const std::vector<Piece*>& pieces);
-
 /** \brief Two pieces as one; not fitted. */
 Piece mergePieces(const Piece& a, const Piece& b);
 
 /** \brief Noise of the points from their distance to their neighbours' planes [m]. */
 double localNoise(const Eigen::Matrix3Xd& points, double effective_points);
+
+/** \brief The same for independent points, from the distance to curved surfaces: those
+ * of thin parts bend within a few neighbours. */
+double curvedNoise(const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

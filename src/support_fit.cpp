@@ -100,6 +100,8 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
       result.candidates.begin(),
       result.candidates.end(),
       [](const ShapeCandidate& a, const ShapeCandidate& b) { return a.bic < b.bic; });
+  if (options.all_points)
+    fitAllPoints(problem, general.front().sigma, result.candidates.front());
   for (ShapeCandidate& c : result.candidates)
     c.model = problem.frame().toCloud(c.model);
   result.chosen = result.candidates.front();

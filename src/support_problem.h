@@ -66,4 +66,7 @@ std::vector<Superquadric> supportStarts(const SupportProblem& problem);
 std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
                                       const Trial& general);
 
+/** \brief Last iterations of the chosen family with all points. */
+void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& chosen);
+
 } // namespace pcl_sq::detail

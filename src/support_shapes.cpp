@@ -77,6 +77,17 @@ ParameterSpace spaceOf(ShapeClass shape) {
   return {};
 }
 
+/** \brief A solid of revolution that slides along its axis. */
+ParameterSpace coaxialSpace() {
+  ParameterSpace space = standing(ParameterSpace::rotational(), 2);
+  int columns = 0;
+  for (int c = 0; c < space.basis.cols(); ++c)
+    if (space.basis(0, c) == 0.0 && space.basis(1, c) == 0.0)
+      space.basis.col(columns++) = space.basis.col(c);
+  space.basis.conservativeResize(11, columns);
+  return space;
+}
+
 void makeMember(Superquadric& m, ShapeClass shape) {
   if (shape == ShapeClass::ROTATIONAL) {
     m.semi_axes[0] = m.semi_axes[1] = std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
@@ -172,13 +183,7 @@ private:
     t.model.semi_axes = {rest, rest, a3};
     t.model.epsilon1 = std::min(start.epsilon1, 1.0);
     t.model.epsilon2 = 1.0;
-    ParameterSpace space = standing(ParameterSpace::rotational(), 2);
-    int columns = 0;
-    for (int c = 0; c < space.basis.cols(); ++c)
-      if (space.basis(0, c) == 0.0 && space.basis(1, c) == 0.0)
-        space.basis.col(columns++) = space.basis.col(c);
-    space.basis.conservativeResize(11, columns);
-    found.push_back(run(ShapeClass::ROTATIONAL, t, space, false, true));
+    found.push_back(run(ShapeClass::ROTATIONAL, t, coaxialSpace(), false, true));
   }
   ShapeCandidate run(ShapeClass shape,
                      const Trial& start,
@@ -242,6 +247,21 @@ Trial bestDescription(const SupportProblem& problem, Trial best) {
 }
 
 } // namespace
+
+void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& chosen) {
+  Trial t;
+  t.sigma = sigma;
+  t.model = chosen.model;
+  ParameterSpace space = chosen.on_axis ? coaxialSpace() : spaceOf(chosen.shape);
+  for (int k = 0; k < 3 && chosen.upright; ++k)
+    if (std::abs(t.model.rotation.col(k).dot(problem.up())) > std::cos(UPRIGHT))
+      space = standing(space, k);
+  t = problem.minimise(
+      t, problem.all(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
+  chosen.bic += t.cost - chosen.cost;
+  chosen.cost = t.cost;
+  chosen.model = t.model;
+}
 
 std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
                                       const Trial& first) {

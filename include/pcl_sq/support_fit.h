@@ -57,6 +57,9 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   std::optional<Superquadric> start; ///< no search but this start
   /** \brief An axis of revolution of another part that this part may share. */
   std::optional<Superquadric> coaxial;
+  /** \brief Whether the chosen family's fit ends with all points instead of a sample:
+   * its cost can then be compared with that of other parts of the same points. */
+  bool all_points = false;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
 };

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "all_round.h"
+
+#include "pcl_sq/fit_superquadric.h"
+
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
+constexpr int OCTANT = 3 * CELLS * CELLS;
+
+/** \brief A surface in small pieces. */
+struct SurfaceCells {
+  Eigen::Matrix3Xd middles{3, 8 * OCTANT};
+  Eigen::ArrayXd areas{8 * OCTANT};
+};
+
+SurfaceCells surfaceCells(const Superquadric& part) {
+  SurfaceCells cells;
+  const double volume = part.semi_axes.prod() / (CELLS * CELLS);
+  for (int c = 0; c < OCTANT; ++c) {
+    const int face = c / (CELLS * CELLS);
+    Eigen::Vector3d d;
+    d[face] = 1.0;
+    d[(face + 1) % 3] = (c % CELLS + 0.5) / CELLS;
+    d[(face + 2) % 3] = (c / CELLS % CELLS + 0.5) / CELLS;
+    const Eigen::Vector3d local = d.cwiseProduct(part.semi_axes);
+    const Eigen::Vector3d out = part.toWorld(local);
+    // the cone over a cell of the cube's face has three times the volume of its part
+    // of the cube; cut off at gauge one, its area vector is volume * grad G / G^3
+    const double shrink = 1.0 / part.gauge(out);
+    const double area = volume * std::pow(shrink, 3) * part.gaugeGradient(out).norm();
+    for (int octant = 0; octant < 8; ++octant) {
+      const Eigen::Vector3d sign(
+          octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
+      cells.middles.col(8 * c + octant) =
+          part.toWorld(shrink * local.cwiseProduct(sign));
+      cells.areas[8 * c + octant] = area;
+    }
+  }
+  return cells;
+}
+
+} // namespace
+
+double outerArea(const std::vector<Superquadric>& parts) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const SurfaceCells cells = surfaceCells(parts[k]);
+    Eigen::ArrayXd visible = Eigen::ArrayXd::Ones(cells.areas.size());
+    // a cell that another part's surface crosses counts in part
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      if (j != k)
+        visible = visible.min(0.5 + surfaceDistances(parts[j], cells.middles).array() /
+                                        cells.areas.sqrt());
+    sum += (visible.max(0.0) * cells.areas).sum();
+  }
+  return sum;
+}
+
+} // namespace pcl_sq::detail
