@@ -9,6 +9,7 @@
 #include "point_set.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pcl_sq {
 
@@ -19,9 +20,11 @@ using namespace detail;
 constexpr double MIN_GAIN = 10.0; ///< of the score, for one more part
 constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs no cut
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
-constexpr std::size_t TRIED = 3;    ///< best cuts that are fitted in full
+constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
+/** \brief How far the best cut is moved, over half the piece's size. */
+constexpr std::array<double, 4> SHIFTS = {-0.1, -0.05, 0.05, 0.1};
 /** \brief Things are no superquadrics: their surface's distance to the best one, over
  * the object's size. */
 constexpr double MODEL_ERROR = 0.005;
@@ -33,6 +36,8 @@ constexpr double SENSOR_ERROR = 7e-4;
 constexpr double SIDEWAYS = 0.5;
 
 struct Split {
+  Cut cut;
+  bool shifted = false; ///< believed of solids of revolution only: others bend to it
   Piece first, second;
   double score = 1e300;
 };
@@ -44,6 +49,7 @@ double observations(const PieceContext& context, const Piece& piece) {
 
 Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
   Split s;
+  s.cut = cut;
   s.first = cutPiece(context, piece, cut);
   s.second = cutPiece(context, piece, cut.flipped());
   if (s.first.points.empty() || s.second.points.empty())
@@ -54,6 +60,10 @@ Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
   fitPiece(context, s.second, Effort::QUICK);
   s.score = s.first.score + s.second.score;
   return s;
+}
+
+bool betterSplit(const Split& a, const Split& b) {
+  return a.score < b.score;
 }
 
 /** \brief Axis that the second of two parts may share. */
@@ -68,6 +78,27 @@ void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) 
   s.score = s.first.score + s.second.score;
 }
 
+/** \brief Adds the best cut moved to where its two parts fit better: a bottle's
+ * shoulder is as long as several of the profile's bins, and either part may have to
+ * take it. */
+void addShifted(const PieceContext& context,
+                const Piece& piece,
+                std::vector<Split>& splits) {
+  const auto best = std::min_element(splits.begin(), splits.end(), betterSplit);
+  if (best == splits.end() || !(best->score < 1e299))
+    return;
+  const double size = halfSize(context, piece);
+  std::vector<Split> shifted(SHIFTS.size());
+  parallelFor(SHIFTS.size(), context.options.fit.threads, [&](std::size_t i) {
+    shifted[i] =
+        split(context, piece, shiftedCut(context, best->cut, SHIFTS[i] * size));
+    shifted[i].shifted = true;
+  });
+  Split& next = *std::min_element(shifted.begin(), shifted.end(), betterSplit);
+  if (next.score < best->score)
+    splits.push_back(std::move(next));
+}
+
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
  * \param[in] axis another part whose axis the two may share, or nullptr */
 Split bestSplit(const PieceContext& context,
@@ -79,20 +110,19 @@ Split bestSplit(const PieceContext& context,
   parallelFor(cuts.size(), threads, [&](std::size_t i) {
     splits[i] = split(context, piece, cuts[i]);
   });
+  addShifted(context, piece, splits);
   splits.erase(std::remove_if(splits.begin(),
                               splits.end(),
                               [](const Split& s) { return s.score > 1e299; }),
                splits.end());
-  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) {
-    return a.score < b.score;
-  });
+  std::sort(splits.begin(), splits.end(), betterSplit);
   splits.resize(std::min(splits.size(), TRIED));
   parallelFor(splits.size(), threads, [&](std::size_t i) {
     fitInFull(context, splits[i], axis);
   });
   Split best;
   for (Split& s : splits)
-    if (s.score < best.score)
+    if (s.score < best.score && (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
   return best;
 }

@@ -119,6 +119,20 @@ Piece wholePiece(const PieceContext& context) {
   return piece;
 }
 
+double halfSize(const PieceContext& context, const Piece& piece) {
+  return halfDiagonal(gather(context, piece.points));
+}
+
+Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance) {
+  const ObservedObject& o = context.observed;
+  if (!o.hasCamera())
+    return {cut.normal, cut.offset + distance};
+  const Eigen::Vector3d towards = o.points.rowwise().mean() - o.camera.center;
+  const Eigen::Vector3d normal =
+      (cut.normal - distance / towards.squaredNorm() * towards).normalized();
+  return {normal, normal.dot(o.camera.center)};
+}
+
 Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) {
   Piece part;
   const ObservedObject& o = context.observed;

@@ -43,6 +43,13 @@ Piece wholePiece(const PieceContext& context);
  */
 Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut);
 
+/** \brief Half the diagonal of the box of a piece's points [m]. */
+double halfSize(const PieceContext& context, const Piece& piece);
+
+/** \brief A cut moved along its normal where the object is [m]; it stays a line of the
+ * image where there is a camera. */
+Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
+
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 

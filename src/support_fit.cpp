@@ -67,6 +67,19 @@ std::vector<Trial> search(const SupportProblem& p, int& iterations) {
   return trials;
 }
 
+/** \brief Where no family fits to within the noise, what is left is the model's error,
+ * not the noise's, and no evidence for one family or the other: all costs are divided
+ * by how many times the best one exceeds what noise leaves (the variance inflation of
+ * quasi-likelihood; Burnham & Anderson 2002, section 2.5). */
+void scaleEvidence(std::vector<ShapeCandidate>& candidates, double observations) {
+  double least = 1e300;
+  for (const ShapeCandidate& c : candidates)
+    least = std::min(least, c.cost);
+  const double inflation = std::max(1.0, least / observations);
+  for (ShapeCandidate& c : candidates)
+    c.bic -= c.cost * (1.0 - 1.0 / inflation);
+}
+
 } // namespace
 
 const char* toString(ShapeClass shape) {
@@ -96,6 +109,7 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   }
   const std::vector<Trial> general = search(problem, result.fit.iterations);
   result.candidates = fitShapes(problem, general.front());
+  scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),
       result.candidates.end(),

@@ -35,9 +35,11 @@ struct ShapeCandidate {
   ShapeClass shape = ShapeClass::GENERIC;
   bool upright = false; ///< an axis is held parallel to the table's normal
   bool on_axis = false; ///< the axis of revolution is another part's
-  double bic = 0.0;     ///< cost / sigma^2 + parameters * ln(observations)
-  double cost = 0.0;    ///< cost / sigma^2, points and planes
-  int parameters = 11;  ///< free ones
+  /** \brief cost / c + parameters * ln(observations); c is 1 unless the best family's
+   * cost exceeds the observations, and that ratio where it does. */
+  double bic = 0.0;
+  double cost = 0.0;   ///< cost / sigma^2, points and planes
+  int parameters = 11; ///< free ones
   Superquadric model;
 };
 
