@@ -101,6 +101,34 @@ TEST(FitObject, BottleBecomesBodyAndNeckOnOneAxis) {
   EXPECT_LT(apart.cross(axis).norm(), 0.004);
 }
 
+TEST(FitObject, MisfitOfAllFamiliesIsNoEvidenceForOne) {
+  ObjectFitOptions options;
+  options.max_parts = 1;
+  // BIC over cost between families of as many parameters: 1, and less where none fits
+  const auto worthOf = [](const SupportFit& fit) {
+    std::vector<double> worth;
+    for (const ShapeCandidate& a : fit.candidates)
+      for (const ShapeCandidate& b : fit.candidates)
+        if (a.parameters == b.parameters && a.cost > b.cost + 1.0)
+          worth.push_back((a.bic - b.bic) / (a.cost - b.cost));
+    return worth;
+  };
+  ViewScene can;
+  can.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
+  can.render(0.001);
+  const std::vector<double> plain = worthOf(fitScene(can, options).parts[0]);
+  ASSERT_FALSE(plain.empty());
+  for (const double w : plain)
+    EXPECT_NEAR(w, 1.0, 1e-9);
+  const SupportFit bottle = fitScene(bottleScene(), options).parts[0];
+  const std::vector<double> misfit = worthOf(bottle);
+  ASSERT_FALSE(misfit.empty());
+  for (const double w : misfit) {
+    EXPECT_LT(w, 0.9);
+    EXPECT_NEAR(w, misfit.front(), 1e-9);
+  }
+}
+
 TEST(FitObject, OneSuperquadricIsGivenWhereOnlyOneIsAllowed) {
   ObjectFitOptions options;
   options.max_parts = 1;
