@@ -27,7 +27,10 @@ inline MultiSuperquadric cup() {
   return cup;
 }
 
-inline MultiSuperquadric bottle() {
+/** \brief A bottle with a neck, standing on z = 0. Not bottle(), which is another one's
+ * name: two inline functions of one name are one in a program, whichever comes first.
+ */
+inline MultiSuperquadric standingBottle() {
   MultiSuperquadric bottle;
   bottle.parts = {part({0.033, 0.033, 0.1}, 0.2, 1.0, {0.0, 0.0, 0.1}),
                   part({0.013, 0.013, 0.04}, 0.2, 1.0, {0.0, 0.0, 0.23})};

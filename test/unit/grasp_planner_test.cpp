@@ -41,7 +41,7 @@ TEST(GraspPlanner, AnySymmetryOfASuperquadricGivesBothContactsTheSameAngle) {
 }
 
 TEST(GraspPlanner, ContactsLieOnTheUnionInsideOfTheirFrictionCones) {
-  for (const MultiSuperquadric& object : {cup(), bottle()}) {
+  for (const MultiSuperquadric& object : {cup(), standingBottle()}) {
     const GraspPlanner planner;
     const GraspPlan plan = planner.plan(object, onTable());
     ASSERT_TRUE(plan.ok()) << plan.failure;
@@ -71,7 +71,7 @@ TEST(GraspPlanner, TheHandNeitherCutsTheObjectNorTheTable) {
     Gripper gripper;
     ASSERT_TRUE(Gripper::preset(name, gripper));
     const GraspPlannerOptions options;
-    for (const MultiSuperquadric& object : {cup(), bottle()}) {
+    for (const MultiSuperquadric& object : {cup(), standingBottle()}) {
       const GraspPlan plan = GraspPlanner(gripper, options).plan(object, onTable());
       ASSERT_TRUE(plan.ok()) << name << ": " << plan.failure;
       for (const Grasp& grasp : plan.grasps) {
@@ -142,8 +142,8 @@ TEST(GraspPlanner, ThePlanMovesWithTheFrame) {
   turned.table_normal = r * scene.table_normal;
   turned.table_offset = -turned.table_normal.dot(t);
   turned.viewpoint = r * scene.viewpoint + t;
-  const GraspPlan a = GraspPlanner().plan(bottle(), scene);
-  const GraspPlan b = GraspPlanner().plan(moved(bottle(), r, t), turned);
+  const GraspPlan a = GraspPlanner().plan(standingBottle(), scene);
+  const GraspPlan b = GraspPlanner().plan(moved(standingBottle(), r, t), turned);
   ASSERT_EQ(a.grasps.size(), b.grasps.size());
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_NEAR(a.grasps[i].scores.total, b.grasps[i].scores.total, 1e-6);
@@ -230,7 +230,7 @@ TEST(GraspPlanner, WrenchQualityIsComputedOnDemand) {
 TEST(GraspPlanner, ThreeFingersHoldABottleWithBalancedForces) {
   Gripper gripper;
   ASSERT_TRUE(Gripper::preset("robotiq_3f", gripper));
-  const GraspPlan plan = GraspPlanner(gripper).plan(bottle(), onTable());
+  const GraspPlan plan = GraspPlanner(gripper).plan(standingBottle(), onTable());
   ASSERT_TRUE(plan.ok()) << plan.failure;
   for (const Grasp& grasp : plan.grasps) {
     ASSERT_EQ(grasp.contacts.size(), 3u);
@@ -238,7 +238,7 @@ TEST(GraspPlanner, ThreeFingersHoldABottleWithBalancedForces) {
     for (int i = 0; i < 3; ++i) {
       const GraspContact& contact = grasp.contacts[std::size_t(i)];
       const Eigen::Vector3d push = -gripper.fingerDirection(grasp.rotation, i);
-      EXPECT_NEAR(bottle().gauge(contact.position), 1.0, 1e-6);
+      EXPECT_NEAR(standingBottle().gauge(contact.position), 1.0, 1e-6);
       EXPECT_GE(-contact.normal.dot(push), 1.0 / std::sqrt(1.25) - 1e-9);
       force += push;
       torque += (contact.position - grasp.position).cross(push);

@@ -9,7 +9,7 @@ using namespace pcl_sq::test;
 
 TEST(GraspScene, MeasuredPointsInTheWayAreAvoidedAndNoiseIsNot) {
   GraspScene scene = onTable();
-  const GraspPlan free = GraspPlanner().plan(bottle(), scene);
+  const GraspPlan free = GraspPlanner().plan(standingBottle(), scene);
   ASSERT_TRUE(free.ok());
   // a dense wall beside the bottle on the side of negative x
   std::vector<Eigen::Vector3d> wall;
@@ -18,7 +18,7 @@ TEST(GraspScene, MeasuredPointsInTheWayAreAvoidedAndNoiseIsNot) {
       wall.emplace_back(-0.045, y, z);
   scene.cloud =
       Eigen::Map<Eigen::Matrix3Xd>(wall[0].data(), 3, Eigen::Index(wall.size()));
-  const GraspPlan plan = GraspPlanner().plan(bottle(), scene);
+  const GraspPlan plan = GraspPlanner().plan(standingBottle(), scene);
   ASSERT_TRUE(plan.ok()) << plan.failure;
   EXPECT_GT(plan.rejections.cloud, 0u);
   for (const Grasp& grasp : plan.grasps)
@@ -33,11 +33,11 @@ TEST(GraspScene, MeasuredPointsInTheWayAreAvoidedAndNoiseIsNot) {
     scene.cloud.col(i) = Eigen::Vector3d(random.uniform(-0.3, 0.3),
                                          random.uniform(-0.3, 0.3),
                                          random.uniform(0.05, 0.4));
-  EXPECT_EQ(GraspPlanner().plan(bottle(), scene).rejections.cloud, 0u);
+  EXPECT_EQ(GraspPlanner().plan(standingBottle(), scene).rejections.cloud, 0u);
 }
 
 TEST(GraspScene, ContactsBesideMeasuredPointsCountAsObserved) {
-  const MultiSuperquadric object = bottle();
+  const MultiSuperquadric object = standingBottle();
   GraspScene scene = onTable();
   std::vector<Eigen::Vector3d> seen; // the half of the body towards negative x
   Random random(204);
@@ -64,7 +64,7 @@ TEST(GraspScene, ContactsBesideMeasuredPointsCountAsObserved) {
 TEST(GraspScene, AnotherObjectInTheWayIsAvoided) {
   GraspScene scene = onTable();
   scene.obstacles.parts = {part({0.05, 0.05, 0.15}, 0.2, 0.2, {0.12, 0.0, 0.15})};
-  const GraspPlan plan = GraspPlanner().plan(bottle(), scene);
+  const GraspPlan plan = GraspPlanner().plan(standingBottle(), scene);
   ASSERT_TRUE(plan.ok()) << plan.failure;
   for (const Grasp& grasp : plan.grasps)
     for (const OrientedBox& box :
