@@ -155,8 +155,8 @@ bool splitOnce(
       parts.pieces[k].final = true;
   }
   const double limit = forced ? 1e299 : parts.score - min_gain;
-  if (best.score > limit) {
-    if (forced || room < 2 || best.score > 1e299)
+  if (best.pieces.empty() || !(best.score <= limit)) {
+    if (forced || room < 2 || best.pieces.empty())
       return false;
     const std::size_t second = best.pieces.size() - 1;
     Parts twice;

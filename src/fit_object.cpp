@@ -278,7 +278,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     return fit;
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
-  if (wanted > 1 && noise > 0.0) {
+  if (wanted > 1 && (noise > 0.0 || options.parts > 0)) {
     context.noise =
         Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
                         MODEL_ERROR * observed.extent,

@@ -76,6 +76,8 @@ double curvedNoise(const Eigen::Matrix3Xd& points) {
                 .eigenvectors()
                 .transpose() *
             local;
+    if (!(local.norm() > 0.0)) // one place many times
+      continue;
     const auto u = local.row(1).transpose().array() / local.norm();
     const auto v = local.row(2).transpose().array() / local.norm();
     Eigen::Matrix<double, Eigen::Dynamic, 6> terms(local.cols(), 6);
@@ -85,7 +87,7 @@ double curvedNoise(const Eigen::Matrix3Xd& points) {
         height - terms * terms.colPivHouseholderQr().solve(height);
     deviations.push_back(residuals.norm() / std::sqrt(double(CURVED - 6)));
   }
-  return median(std::move(deviations));
+  return deviations.empty() ? 0.0 : median(std::move(deviations));
 }
 
 double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
