@@ -5,6 +5,7 @@
 #include "all_round.h"
 #include "object_piece.h"
 #include "option_check.h"
+#include "outline_gaps.h"
 #include "parallel_for.h"
 #include "point_set.h"
 
@@ -291,6 +292,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     if (observed.hasCamera()) {
       context.limits.push_back(backOf(pieces[0].fit, observed));
       splitView(context, pieces, wanted, min_gain);
+      if (wanted >= 4 && options.parts == 0)
+        openGap(context, pieces, min_gain);
     } else
       pieces = splitAllRound(
           context, std::move(pieces[0]), wanted, options.parts > 0, min_gain);

@@ -75,6 +75,7 @@ bool observeImage(Observation& o, std::string& why) {
     findTable(o, box);
   checkTable(out);
   findFreePixels(o, box, FREE_MARGIN + (has_mask ? 0 : RIM_OF_DEPTH));
+  findGap(o, box);
   out.outline_sigma = has_mask ? o.view.mask_sigma : 1.5;
   out.outline_dilation = has_mask ? o.view.mask_dilation : 1.5;
   out.outline_offset = has_mask ? 0.0 : FATTENING;

@@ -38,6 +38,9 @@ void findTable(Observation& o, const CellRect& box);
 /** \brief Pixels beside the object's through which the background is seen.
  * \param[in] margin pixels beside the outline that may be either's */
 void findFreePixels(Observation& o, const CellRect& box, int margin);
+/** \brief The largest gap in the object's pixels through which the background is seen.
+ * \param[in] box of the object's pixels */
+void findGap(Observation& o, const CellRect& box);
 /** \brief Whether something nearer than the object hides it beyond a contour pixel. */
 bool occluded(const Observation& o, const DepthPatch& patch, int x, int y);
 

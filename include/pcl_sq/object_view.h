@@ -74,6 +74,9 @@ struct PCL_SQ_EXPORTS ObservedObject {
    * the object crosses their rays. A coarse grid of them. */
   std::vector<Eigen::Vector2d> free_pixels;
   double free_weight = 0.0;       ///< independent observations per free pixel
+  /** \brief Pixels of the largest gap in the object, such as that of a handle, through
+   * which the background is seen. */
+  std::vector<Eigen::Vector2d> gap;
   std::vector<std::string> notes; ///< fall-backs, one sentence each
 
   bool hasCamera() const { return outline != OutlineSource::NONE; }
