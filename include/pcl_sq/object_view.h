@@ -73,7 +73,7 @@ struct PCL_SQ_EXPORTS ObservedObject {
   /** \brief Pixels around the object through which the background is seen: no part of
    * the object crosses their rays. A coarse grid of them. */
   std::vector<Eigen::Vector2d> free_pixels;
-  double free_weight = 0.0;       ///< independent observations per free pixel
+  double free_weight = 0.0; ///< independent observations per free pixel
   /** \brief Pixels of the largest gap in the object, such as that of a handle, through
    * which the background is seen. */
   std::vector<Eigen::Vector2d> gap;
