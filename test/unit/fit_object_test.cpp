@@ -11,13 +11,13 @@ using namespace pcl_sq::test;
 namespace {
 
 /** \brief A camera with more pixels, for objects with thin parts. */
-ViewScene fineScene() {
+ViewScene fineScene(int times = 1) {
   ViewScene scene;
-  scene.width = 240;
-  scene.height = 180;
-  scene.camera.fx = scene.camera.fy = 450.0;
-  scene.camera.cx = 119.5;
-  scene.camera.cy = 89.5;
+  scene.width = times * 240;
+  scene.height = times * 180;
+  scene.camera.fx = scene.camera.fy = times * 450.0;
+  scene.camera.cx = 0.5 * (scene.width - 1);
+  scene.camera.cy = 0.5 * (scene.height - 1);
   return scene;
 }
 
@@ -25,6 +25,21 @@ ViewScene bottleScene() {
   ViewScene scene = fineScene();
   scene.addUpright({0.035, 0.035, 0.06}, 0.2, 1.0, 0.06);
   scene.addUpright({0.013, 0.013, 0.03}, 0.2, 1.0, 0.14);
+  scene.render(0.001);
+  return scene;
+}
+
+/** \brief A cup with its handle beside it, of three rods. */
+ViewScene cupScene() {
+  ViewScene scene = fineScene(2);
+  const auto add = [&](const Eigen::Vector3d& semi_axes, double aside, double height) {
+    scene.addUpright(semi_axes, 0.3, 1.0, height);
+    scene.object.parts.back().center += aside * scene.upright().col(0);
+  };
+  add({0.04, 0.04, 0.05}, 0.0, 0.05);
+  add({0.006, 0.006, 0.028}, 0.066, 0.05);
+  add({0.016, 0.006, 0.006}, 0.054, 0.075);
+  add({0.016, 0.006, 0.006}, 0.054, 0.025);
   scene.render(0.001);
   return scene;
 }
@@ -99,6 +114,44 @@ TEST(FitObject, BottleBecomesBodyAndNeckOnOneAxis) {
   const Eigen::Vector3d axis = fit.model.parts[0].rotation.col(2);
   const Eigen::Vector3d apart = fit.model.parts[1].center - fit.model.parts[0].center;
   EXPECT_LT(apart.cross(axis).norm(), 0.004);
+}
+
+TEST(FitObject, CupWhoseHandleLeavesAGapBecomesABodyAndThreeRods) {
+  const ViewScene scene = cupScene();
+  const ObjectFit fit = fitScene(scene);
+  ASSERT_EQ(fit.model.size(), 4u);
+  EXPECT_GT(overlap(fit.model, scene.object), 0.88);
+  const Superquadric& rod = scene.object.parts[1];
+  EXPECT_TRUE(fit.model.contains(rod.center));
+  const Eigen::Vector3d between =
+      scene.object.parts[0].center + 0.05 * scene.upright().col(0);
+  EXPECT_FALSE(fit.model.contains(between));
+}
+
+TEST(FitObject, GapIsOpenedOnlyWhereTheBackgroundShowsAndFourPartsAreAllowed) {
+  ObjectFitOptions options;
+  options.max_parts = 3;
+  EXPECT_LE(fitScene(cupScene(), options).model.size(), 3u);
+  const auto hole = [&](bool through) {
+    ViewScene scene = bottleScene();
+    Eigen::Vector2d middle = scene.camera.project(scene.object.parts[0].center);
+    for (int y = -4; y <= 4; ++y)
+      for (int x = -4; x <= 4; ++x) {
+        const int at = (int(middle.y()) + y) * scene.width + int(middle.x()) + x;
+        scene.mask.cells[std::size_t(at)] = 0;
+        if (through)
+          scene.points.col(at) *= 2.0f;
+      }
+    ViewOptions view;
+    view.mask = scene.mask;
+    view.camera = scene.camera;
+    ObservedObject observed;
+    EXPECT_TRUE(
+        observeObject(scene.points, scene.width, scene.height, {}, view, observed));
+    return observed.gap.size();
+  };
+  EXPECT_EQ(hole(false), 0u);
+  EXPECT_EQ(hole(true), 81u);
 }
 
 TEST(FitObject, MisfitOfAllFamiliesIsNoEvidenceForOne) {
