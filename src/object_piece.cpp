@@ -214,6 +214,7 @@ void fitPiece(const PieceContext& context,
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
+        (assessed.fit.chosen.shape == ShapeClass::TAPERED ? TAPER : 0.0) +
         assessed.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
         0.5 * double(evidence.silhouette.size());
     return assessed;
@@ -228,7 +229,7 @@ void fitPiece(const PieceContext& context,
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
     options.start = best.fit.fit.model;
     SupportFit next = fitWithSupports(points, more, options);
-    const double hinges = hingeCost(covered.limits, next.chosen.model);
+    const double hinges = hingeCost(covered.limits, next.fit.model);
     Piece assessed = assess(std::move(next), hinges);
     if (!(assessed.score < best.score))
       break;

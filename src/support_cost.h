@@ -14,6 +14,11 @@ namespace pcl_sq::detail {
  * moulds. */
 inline constexpr double SHARED_AXIS = 12.0;
 
+/** \brief Twice the logarithm of the prior odds against a taper: what one view shows of
+ * a body, noise that is not alike everywhere, and parts that meet all feign one
+ * (TaperedFit::DEMAND says the same in nats). */
+inline constexpr double TAPER = 20.0;
+
 /** \brief Squared, weighted support residuals, in the frame of the points.
  *
  * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is

@@ -92,6 +92,8 @@ const char* toString(ShapeClass shape) {
     return "box";
   case ShapeClass::ELLIPSOID:
     return "ellipsoid";
+  case ShapeClass::TAPERED:
+    return "tapered";
   }
   return "unknown";
 }
@@ -109,6 +111,10 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   }
   const std::vector<Trial> general = search(problem, result.fit.iterations);
   result.candidates = fitShapes(problem, general.front());
+  if (options.taper && options.choose_shape && !options.all_points)
+    if (const auto tapered =
+            fitTaper(problem, general.front().sigma, result.candidates))
+      result.candidates.push_back(*tapered);
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),
@@ -126,7 +132,9 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     }
   result.noise = general.front().sigma * problem.frame().scale;
   FitSummary& fit = result.fit;
-  fit.model = result.chosen.model;
+  for (auto c = result.candidates.rbegin(); c != result.candidates.rend(); ++c)
+    if (c->shape != ShapeClass::TAPERED)
+      fit.model = c->model;
   fit.termination = general.front().termination;
   fit.points = problem.all().size();
   fit.sigma = result.noise;

@@ -108,29 +108,47 @@ double SupportProblem::observations() const {
   return points + double(cost_.silhouette.size() + cost_.tangents.size());
 }
 
+LmOptions SupportProblem::limits(double sigma) const {
+  LmOptions o;
+  o.residual = kernels::Residual::FOOT_POINT;
+  o.min_epsilon = options_.min_epsilon;
+  o.max_epsilon = options_.max_epsilon;
+  o.max_axis = max_axis_;
+  o.min_axis = 1e-3;
+  o.cost_tolerance = 1e-5;
+  o.sigma = sigma;
+  o.outlier = options_.robust ? OUTLIER : 0.0;
+  return o;
+}
+
+SupportCost SupportProblem::planes(double sigma, const UnitPoints& points) const {
+  SupportCost cost = cost_;
+  cost.unit = unitOf(sigma, points);
+  return cost;
+}
+
+double SupportProblem::unitOf(double sigma, const UnitPoints& points) const {
+  const double effective =
+      options_.effective_points > 0.0
+          ? std::min(options_.effective_points, double(all_.size()))
+          : double(all_.size());
+  return sigma * std::sqrt(double(points.size()) / effective);
+}
+
 Trial SupportProblem::minimise(const Trial& start,
                                const UnitPoints& points,
                                kernels::Residual residual,
                                int iterations,
                                const ParameterSpace& space,
                                bool few_planes) const {
-  LmOptions o;
+  LmOptions o = limits(start.sigma);
   o.residual = residual;
   o.max_iterations = iterations;
-  o.cost_tolerance = few_planes ? 1e-3 : 1e-5;
-  o.min_epsilon = options_.min_epsilon;
-  o.max_epsilon = options_.max_epsilon;
-  o.max_axis = max_axis_;
-  o.min_axis = 1e-3;
+  if (few_planes)
+    o.cost_tolerance = 1e-3;
   o.space = space;
-  o.sigma = start.sigma;
-  o.outlier = options_.robust ? OUTLIER : 0.0;
-  const double effective =
-      options_.effective_points > 0.0
-          ? std::min(options_.effective_points, double(all_.size()))
-          : double(all_.size());
   SupportCost cost = few_planes ? few_ : cost_;
-  cost.unit = start.sigma * std::sqrt(double(points.size()) / effective);
+  cost.unit = unitOf(start.sigma, points);
   if (!cost.empty())
     o.contributor = std::cref(cost);
   const LmResult r = levenbergMarquardt(points, start.model, o);

@@ -35,6 +35,11 @@ public:
   /** \brief The points' sigma at a trial; the given noise where it is known. */
   double sigmaOf(const Trial& trial, const UnitPoints& points) const;
 
+  /** \brief Bounds and mixture of a fit whose points have the given sigma. */
+  LmOptions limits(double sigma) const;
+  /** \brief The planes' cost beside that of \a points of the given sigma. */
+  SupportCost planes(double sigma, const UnitPoints& points) const;
+
   const UnitFrame& frame() const { return frame_; }
   const UnitPoints& all() const { return all_; }
   const UnitPoints& medium() const { return medium_; }
@@ -48,6 +53,9 @@ public:
   const SupportFitOptions& options() const { return options_; }
 
 private:
+  /** \brief What a residual of one sigma costs, see SupportCost::unit. */
+  double unitOf(double sigma, const UnitPoints& points) const;
+
   SupportFitOptions options_;
   UnitFrame frame_;
   UnitPoints all_, medium_, coarse_;
@@ -65,6 +73,12 @@ std::vector<Superquadric> supportStarts(const SupportProblem& problem);
 /** \brief All families from the best general fit. */
 std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
                                       const Trial& general);
+
+/** \brief The best tapered body, if the families' best ones show that a taper would
+ * help: its share in what a Gauss-Newton step would gain (Rao's score test). */
+std::optional<ShapeCandidate> fitTaper(const SupportProblem& problem,
+                                       double sigma,
+                                       const std::vector<ShapeCandidate>& candidates);
 
 /** \brief Last iterations of the chosen family with all points. */
 void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& chosen);

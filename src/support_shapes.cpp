@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The families of superquadrics and their fits from a general one.
 #include "parallel_for.h"
+#include "shape_spaces.h"
 #include "support_problem.h"
 
 #include <array>
@@ -12,20 +13,6 @@ namespace {
 
 constexpr double BOX_EPSILON = 0.2;
 constexpr int ITERATIONS = 20;
-/** \brief Largest angle to the table's normal of an axis that may be upright. */
-constexpr double UPRIGHT = 0.35;
-
-/** \brief The same body with its axes permuted cyclically so that axis \a k is z. */
-Superquadric withAxis(const Superquadric& m, int k) {
-  Superquadric s = m;
-  for (int i = 0; i < 3; ++i) {
-    s.rotation.col(i) = m.rotation.col((i + k + 1) % 3);
-    s.semi_axes[i] = m.semi_axes[(i + k + 1) % 3];
-  }
-  if (k != 2)
-    std::swap(s.epsilon1, s.epsilon2);
-  return s;
-}
 
 /** \brief The dual description of the cross-section: turned by 45 degrees about z,
  * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
@@ -39,42 +26,6 @@ Superquadric dual(const Superquadric& m) {
   s.rotation *=
       Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return s;
-}
-
-/** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
-Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up) {
-  Superquadric s = m;
-  const Eigen::Vector3d axis = m.rotation.col(k);
-  const Eigen::Vector3d target = axis.dot(up) < 0.0 ? Eigen::Vector3d(-up) : up;
-  s.rotation =
-      Eigen::Quaterniond::FromTwoVectors(axis, target).toRotationMatrix() * m.rotation;
-  return s;
-}
-
-/** \brief Takes the directions of the space out that turn any axis but \a k. */
-ParameterSpace standing(const ParameterSpace& space, int k) {
-  ParameterSpace reduced = space;
-  int columns = 0;
-  for (int c = 0; c < space.basis.cols(); ++c) {
-    const auto turn = space.basis.col(c).segment<3>(3);
-    if (turn.norm() == 0.0 || turn[k] != 0.0)
-      reduced.basis.col(columns++) = space.basis.col(c);
-  }
-  reduced.basis.conservativeResize(11, columns);
-  return reduced;
-}
-
-ParameterSpace spaceOf(ShapeClass shape) {
-  switch (shape) {
-  case ShapeClass::ROTATIONAL:
-    return ParameterSpace::rotational();
-  case ShapeClass::BOX:
-  case ShapeClass::ELLIPSOID:
-    return ParameterSpace::without(1U << 9 | 1U << 10);
-  case ShapeClass::GENERIC:
-    break;
-  }
-  return {};
 }
 
 /** \brief A solid of revolution that slides along its axis. */
@@ -254,7 +205,7 @@ void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& c
   t.model = chosen.model;
   ParameterSpace space = chosen.on_axis ? coaxialSpace() : spaceOf(chosen.shape);
   for (int k = 0; k < 3 && chosen.upright; ++k)
-    if (std::abs(t.model.rotation.col(k).dot(problem.up())) > std::cos(UPRIGHT))
+    if (std::abs(t.model.rotation.col(k).dot(problem.up())) > UPRIGHT)
       space = standing(space, k);
   t = problem.minimise(
       t, problem.all(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
@@ -279,7 +230,7 @@ std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
   if (problem.hasUp()) {
     const double cosine =
         (m.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&standing_axis);
-    if (cosine < std::cos(UPRIGHT))
+    if (cosine < UPRIGHT)
       standing_axis = -1;
   }
   for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #include "taper_problem.h"
 
 #include "damped_solve.h"
+#include "taper_step.h"
 
 #include <Eigen/Cholesky>
 
@@ -11,32 +12,8 @@ namespace {
 
 constexpr double MIN_DAMPING = 1e-9;
 constexpr double MAX_DAMPING = 1e8;
-constexpr double TRUST = 0.3;     ///< largest step of a taper
 constexpr double SHRINKAGE = 0.2; ///< of sigma in a round, at most
 constexpr double SETTLED = 0.01;  ///< relative change of sigma that ends the rounds
-
-TaperedSuperquadric
-moved(const TaperedSuperquadric& s, Vector13 step, const LmOptions& o, bool& limited) {
-  Vector11 own = step.head<11>();
-  limited = limitStep(own, s.shape);
-  TaperedSuperquadric m;
-  m.shape = moved(s.shape, own, o);
-  constexpr double MOST = TaperedSuperquadric::MAX_TAPER;
-  m.kx = std::clamp(s.kx + std::clamp(step[11], -TRUST, TRUST), -MOST, MOST);
-  m.ky = std::clamp(s.ky + std::clamp(step[12], -TRUST, TRUST), -MOST, MOST);
-  limited = limited || step.tail<2>().cwiseAbs().maxCoeff() > TRUST;
-  return m;
-}
-
-bool leadsOut(const TaperedSuperquadric& s,
-              int i,
-              double downhill,
-              const LmOptions& o) {
-  if (i < 11)
-    return leadsOut(s.shape, downhill * Vector11::Unit(i), o);
-  const double k = i == 11 ? s.kx : s.ky;
-  return std::abs(k) >= TaperedSuperquadric::MAX_TAPER && k * downhill > 0.0;
-}
 
 } // namespace
 
@@ -93,7 +70,7 @@ TaperProblem::Equations TaperProblem::minimise(TaperedSuperquadric& model,
   for (int k = 0; k < iterations && damping < MAX_DAMPING; ++k) {
     bool frozen[13] = {};
     for (int i = 0; i < n; ++i)
-      frozen[i] = leadsOut(model, i, -e.jtr[i], o);
+      frozen[i] = leadsOut(model, Vector13(-e.jtr[i] * Vector13::Unit(i)), o);
     Vector13 step = Vector13::Zero();
     bool limited = false;
     if (dampedSolve<13>(e.jtj, e.jtr, n, frozen, damping, step)) {

@@ -5,11 +5,9 @@
 #pragma once
 
 #include "full_fit.h"
-#include "taper_row.h"
+#include "taper_step.h"
 
 namespace pcl_sq::detail {
-
-using Matrix13 = Eigen::Matrix<double, 13, 13>;
 
 /** \brief A tapered superquadric in the frame of the points, with its mixture. */
 struct TaperCandidate {

@@ -14,7 +14,7 @@ enum class Tapering {
 
 /** \brief Result of fitTapered(). */
 struct PCL_SQ_EXPORTS TaperedFit {
-  /** rief Margin from which on the points demand a taper [nats]. Twice the "very
+  /** \brief Margin from which on the points demand a taper [nats]. Twice the "very
    * strong" of Kass & Raftery 1995: noise that is not alike everywhere, as that of
    * stereo, now and then favours a taper that is not there. */
   static constexpr double DEMAND = 10.0;

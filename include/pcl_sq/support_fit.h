@@ -24,7 +24,8 @@ enum class ShapeClass {
   GENERIC,    ///< all eleven
   ROTATIONAL, ///< solid of revolution about z: a1 = a2, e2 = 1
   BOX,        ///< e1 = e2 = 0.2
-  ELLIPSOID   ///< e1 = e2 = 1
+  ELLIPSOID,  ///< e1 = e2 = 1
+  TAPERED     ///< one of the above whose section grows along z, see TaperedSuperquadric
 };
 
 /** \brief The value's name, as it stands in the JSON. */
@@ -38,9 +39,10 @@ struct ShapeCandidate {
   /** \brief cost / c + parameters * ln(observations); c is 1 unless the best family's
    * cost exceeds the observations, and that ratio where it does. */
   double bic = 0.0;
-  double cost = 0.0;   ///< cost / sigma^2, points and planes
-  int parameters = 11; ///< free ones
-  Superquadric model;
+  double cost = 0.0;         ///< cost / sigma^2, points and planes
+  int parameters = 11;       ///< free ones
+  Superquadric model;        ///< of a TAPERED one: before tapering
+  double kx = 0.0, ky = 0.0; ///< its taper, see TaperedSuperquadric
 };
 
 /** \brief Settings of fitWithSupports(). */
@@ -62,13 +64,16 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   /** \brief Whether the chosen family's fit ends with all points instead of a sample:
    * its cost can then be compared with that of other parts of the same points. */
   bool all_points = false;
+  /** \brief Whether TAPERED is among the families; not with \a all_points. Off unless
+   * asked for: what takes a union of superquadrics takes no taper. */
+  bool taper = false;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
 };
 
 /** \brief Result of fitWithSupports(). */
 struct SupportFit {
-  FitSummary fit;
+  FitSummary fit; ///< of the best family without a taper
   ShapeCandidate chosen;
   double margin = 0.0; ///< BIC of the best other family minus that of the chosen one
   std::vector<ShapeCandidate> candidates; ///< all families tried

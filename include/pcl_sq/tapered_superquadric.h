@@ -44,6 +44,14 @@ struct PCL_SQ_EXPORTS TaperedSuperquadric {
    * [m]; Superquadric::footPointDistance() where there is no taper. */
   double footPointDistance(const Eigen::Vector3d& point) const;
 
+  /** \brief How far the body reaches from shape.center along a direction [m], times the
+   * direction's length; exact to about 1e-9 of its size. A tapered body need not be
+   * convex: this is the support function of its convex hull. With e2 > 1.98 that of
+   * e2 = 1.98. */
+  double support(const Eigen::Vector3d& direction) const;
+  /** \brief The point of the surface that reaches farthest along a direction. */
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
+
   /** \brief Volume [m^3]: the odd terms of the taper cancel, and kx ky times the second
    * moment along z over a3^2 comes on top. */
   double volume() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/fit_tapered.h"
 #include "taper_row.h"
+#include "taper_support.h"
 
 #include "random_superquadric.h"
 
@@ -172,6 +173,46 @@ TEST(TaperedSuperquadric, OppositeTaperIsTheSameBodyTurned) {
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d p = random.pointNear(s.shape);
     EXPECT_NEAR(s.gauge(p), turned.gauge(p), 1e-9 * s.gauge(p));
+  }
+}
+
+TEST(TaperedSuperquadric, SupportIsTheFarthestVertexOfTheMesh) {
+  Random random(81);
+  for (int i = 0; i < 60; ++i) {
+    TaperedSuperquadric s = anyTapered(random);
+    if (i % 3 == 0) // hollow beside one end
+      s.kx = s.ky = 0.9;
+    const TriangleMesh mesh = meshSuperquadric(s, 80);
+    const Eigen::Vector3d n = random.direction();
+    double farthest = -1e300;
+    for (const Eigen::Vector3d& v : mesh.vertices)
+      farthest = std::max(farthest, n.dot(v - s.shape.center));
+    EXPECT_GE(s.support(n), farthest - 1e-9);
+    EXPECT_NEAR(s.support(n), farthest, 6e-3) << "case " << i;
+    EXPECT_NEAR(n.dot(s.supportPoint(n) - s.shape.center), s.support(n), 1e-9);
+    EXPECT_NEAR(s.gauge(s.supportPoint(n)), 1.0, 1e-6);
+    EXPECT_NEAR(s.support(3.0 * n), 3.0 * s.support(n), 1e-9);
+    s.kx = s.ky = 0.0;
+    EXPECT_NEAR(s.support(n), s.shape.support(n), 1e-9);
+  }
+}
+
+TEST(TaperedSuperquadric, SupportHasTheDerivativesOfCentralDifferences) {
+  Random random(82);
+  constexpr double STEP = 1e-5;
+  for (int i = 0; i < 40; ++i) {
+    TaperedSuperquadric s = anyTapered(random);
+    if (i % 4 == 0)
+      s.kx = s.ky = 0.0;
+    const Eigen::Vector3d n = random.direction();
+    const auto row = detail::taperSupport(s, n);
+    EXPECT_NEAR(row.reach, n.dot(s.shape.center) + s.support(n), 1e-9);
+    for (int k = 0; k < 13; ++k) {
+      const double forward = detail::taperSupport(moved(s, k, STEP), n).reach;
+      const double backward = detail::taperSupport(moved(s, k, -STEP), n).reach;
+      EXPECT_NEAR(row.derivatives[k], (forward - backward) / (2.0 * STEP), 1e-4)
+          << "case " << i << ", parameter " << k;
+    }
   }
 }
 
