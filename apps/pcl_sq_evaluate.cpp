@@ -152,10 +152,11 @@ int work(const Options& o) {
     checkWritable(o.output);
   ModelFile file;
   std::string why;
-  if (!fromJson(readFile(o.model), file, &why))
+  if (!fromJson(readFile(o.model), file, &why, TaperedParts::READ))
     throw Failure("'" + o.model + "' is not a model: " + why);
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
+  const TaperedUnion model = file.tapered();
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},
@@ -164,13 +165,12 @@ int work(const Options& o) {
   // without a cloud, D as the fit reported it: metres^1.5 to millimetres^1.5
   json["distortion_mm"] = file.distortion * std::pow(1e3, 1.5);
   if (!o.truth.empty() || !o.mesh.empty())
-    json["shape"] =
-        toJson(evaluateShape(file.model, loadShape(o), o.samples, o.threads));
+    json["shape"] = toJson(evaluateShape(model, loadShape(o), o.samples, o.threads));
   if (!o.cloud.empty()) {
     const Eigen::Matrix3Xd points = finitePoints(loadCloud(o.cloud));
     if (points.cols() == 0)
       throw Failure("'" + o.cloud + "' holds no finite point.");
-    const CloudFigures c = evaluateCloud(file.model, points, o.threads);
+    const CloudFigures c = evaluateCloud(model, points, o.threads);
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }

@@ -110,7 +110,7 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
     std::printf("  failed: %s\n", why.c_str());
   r.milliseconds = 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC;
   r.parts = fit.model.size();
-  r.scores = score(truth.model, fit.model);
+  r.scores = score(truth.model, fit.tapered);
   if (settings.verbose) {
     std::printf("    observe %.1f ms, %d points, %zu contour, depth %.3f\n",
                 1e3 * double(seen - begin) / CLOCKS_PER_SEC,
@@ -121,8 +121,8 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
       double sum = 0.0, square = 0.0, n = 0.0;
       for (const SupportPlane& plane :
            observed.evidence(observed.contour, 48, true).silhouette) {
-        const double out = -plane.residual(truth.model.parts[0]) / plane.sigma *
-                           observed.outline_sigma;
+        const double out = (plane.offset - truth.model.support(plane.normal)) /
+                           plane.sigma * observed.outline_sigma;
         sum += out;
         square += out * out;
         n += 1.0;
@@ -136,17 +136,16 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
     if (observed.table)
       std::printf("    table sigma %.2f mm, truth sticks out %.2f mm\n",
                   1e3 * observed.table->sigma,
-                  -1e3 * (observed.table->normal.dot(truth.model.parts[0].center) +
-                          observed.table->offset -
-                          truth.model.parts[0].support(observed.table->normal)));
+                  1e3 * (truth.model.support(-observed.table->normal) -
+                         observed.table->offset));
     std::printf("    extent %.3f m\n", observed.extent);
     std::printf("    misfit of one %.2f, effective %.0f\n",
                 fit.misfit,
                 observed.effective_points);
     for (const SupportFit& part : fit.parts) {
-      const Superquadric& m = part.fit.model;
+      const Superquadric& m = part.chosen.model;
       std::printf("    %s%s%s margin %.1f noise %.2f mm  a %.1f %.1f %.1f e %.2f %.2f "
-                  "|",
+                  "k %.2f %.2f |",
                   toString(part.chosen.shape),
                   part.chosen.upright ? " upright" : "",
                   part.chosen.on_axis ? " on axis" : "",
@@ -156,18 +155,24 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                   1e3 * m.semi_axes[1],
                   1e3 * m.semi_axes[2],
                   m.epsilon1,
-                  m.epsilon2);
+                  m.epsilon2,
+                  part.chosen.kx,
+                  part.chosen.ky);
       for (const ShapeCandidate& k : part.candidates)
         std::printf(" %s%s %.0f", toString(k.shape), k.upright ? "^" : "", k.bic);
       std::printf("\n");
     }
-    for (const Superquadric& m : truth.model.parts)
-      std::printf("    true a %.1f %.1f %.1f e %.2f %.2f\n",
+    for (const TaperedSuperquadric& body : truth.model.parts) {
+      const Superquadric& m = body.shape;
+      std::printf("    true a %.1f %.1f %.1f e %.2f %.2f taper %.2f %.2f\n",
                   1e3 * m.semi_axes[0],
                   1e3 * m.semi_axes[1],
                   1e3 * m.semi_axes[2],
                   m.epsilon1,
-                  m.epsilon2);
+                  m.epsilon2,
+                  body.kx,
+                  body.ky);
+    }
     for (const std::string& note : observed.notes)
       std::printf("    note: %s\n", note.c_str());
   }

@@ -2,7 +2,7 @@
 #include "all_round.h"
 
 #include "parallel_for.h"
-#include "pcl_sq/fit_superquadric.h"
+#include "support_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,23 +35,25 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
   const ObservedObject& o = context.observed;
   // the smallest signed distance is that to the union
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(o.points.cols(), 1e300);
-  std::vector<Superquadric> models;
-  double parameters = 0.0;
+  std::vector<TaperedSuperquadric> bodies;
+  double parameters = 0.0, demand = 0.0;
   for (const Piece& piece : pieces) {
     if (!piece.fit.fit.ok())
       return 1e300;
-    models.push_back(piece.fit.fit.model);
-    distances = distances.cwiseMin(surfaceDistances(models.back(), o.points));
+    bodies.push_back(bodyOf(piece.fit));
+    distances = distances.cwiseMin(bodyDistances(bodies.back(), o.points));
     parameters += piece.fit.chosen.parameters;
+    if (bodies.back().isTapered())
+      demand += TAPER;
   }
   double cost = 0.0;
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
     const double z = distances[i] / context.noise;
     cost -= 2.0 * std::log((std::exp(-0.5 * z * z) + OUTLIER) / (1.0 + OUTLIER));
   }
-  const double area = outerArea(models) / (o.extent * o.extent);
+  const double area = outerArea(bodies) / (o.extent * o.extent);
   return (cost / double(distances.size()) + 2.0 * std::log(area)) * o.effective_points +
-         parameters * std::log(1.0 + o.effective_points);
+         parameters * std::log(1.0 + o.effective_points) + demand;
 }
 
 /** \brief Gives each point to the part with the nearest surface; a part keeps what
@@ -63,7 +65,7 @@ bool assignPoints(const PieceContext& context, std::vector<Piece>& pieces) {
   std::vector<std::size_t> owner(static_cast<std::size_t>(n), 0);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     Eigen::VectorXd distances =
-        surfaceDistances(pieces[k].fit.fit.model, context.observed.points).cwiseAbs();
+        bodyDistances(bodyOf(pieces[k].fit), context.observed.points).cwiseAbs();
     for (const int i : pieces[k].points)
       distances[i] -= context.noise;
     for (Eigen::Index i = 0; i < n; ++i)

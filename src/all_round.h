@@ -20,6 +20,10 @@ std::vector<Piece> splitAllRound(const PieceContext& context,
                                  double min_gain);
 
 /** \brief Area of the surface of a union, without what lies inside of it [m^2]. */
-double outerArea(const std::vector<Superquadric>& parts);
+double outerArea(const std::vector<TaperedSuperquadric>& parts);
+
+/** \brief surfaceDistances() of a body that may be tapered [m]. */
+Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
+                              const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

@@ -303,6 +303,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     fit.bic += pieces[k].score;
     fit.model.parts.push_back(pieces[k].fit.fit.model);
+    fit.tapered.parts.push_back(bodyOf(pieces[k].fit));
     fit.parts.push_back(std::move(pieces[k].fit));
     for (const int i : pieces[k].points)
       fit.labels[std::size_t(i)] = int(k);

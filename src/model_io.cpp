@@ -185,6 +185,15 @@ void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) 
 
 } // namespace
 
+TaperedUnion ModelFile::tapered() const {
+  TaperedUnion bodies(model);
+  for (std::size_t i = 0; i < std::min(tapers.size(), bodies.size()); ++i) {
+    bodies.parts[i].kx = tapers[i][0];
+    bodies.parts[i].ky = tapers[i][1];
+  }
+  return bodies;
+}
+
 std::string toJson(const ModelFile& file, int indent) {
   Json parts = Json::array();
   for (std::size_t i = 0; i < file.model.size(); ++i)

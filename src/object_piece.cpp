@@ -3,6 +3,8 @@
 
 #include "pcl_sq/line_intersection.h"
 #include "support_cost.h"
+#include "taper_line.h"
+#include "taper_row.h"
 
 #include <algorithm>
 
@@ -61,43 +63,90 @@ struct Covered {
   std::vector<SupportPlane> limits;
 };
 
-Covered coveredFreePixels(const PieceContext& context, const Superquadric& model) {
+/** \brief A point of a ray well inside a body. \return false if the ray misses it */
+bool insideOnRay(const TaperedSuperquadric& body,
+                 const Eigen::Vector3d& from,
+                 const Eigen::Vector3d& ray,
+                 Eigen::Vector3d& inside) {
+  double at;
+  if (body.isTapered()) {
+    if (!(smallestGauge(body, from, ray, at) < 1.0))
+      return false;
+  } else {
+    LineInterval chord;
+    if (!intersectLineBox(body.shape, from, ray, chord) ||
+        !intersectLine(body.shape, from, ray, chord))
+      return false;
+    // the middle of the chord lies about where the ray comes nearest to the centre
+    at = 0.5 * (chord.enter + chord.leave);
+  }
+  inside = from + at * ray;
+  return true;
+}
+
+/** \brief Direction in which a body's gauge grows at a point. */
+Eigen::Vector3d outwards(const TaperedSuperquadric& body,
+                         const Eigen::Vector3d& point) {
+  Eigen::Vector3d inwards;
+  if (body.isTapered())
+    inwards = taperLogGauge(body, point).derivatives.head<3>();
+  else
+    inwards = body.shape.logGaugeJacobian(point).head<3>();
+  return body.shape.rotation * -inwards;
+}
+
+/** \brief How far a body reaches beyond a plane [m]. */
+double beyond(const SupportPlane& plane, const TaperedSuperquadric& body) {
+  return body.isTapered() ? plane.normal.dot(body.shape.center) +
+                                body.support(plane.normal) - plane.offset
+                          : plane.residual(body.shape);
+}
+
+Covered coveredFreePixels(const PieceContext& context,
+                          const TaperedSuperquadric& body) {
   const ObservedObject& o = context.observed;
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
   Covered covered;
   for (const Eigen::Vector2d& p : o.free_pixels) {
     const Eigen::Vector3d ray = o.camera.ray(p);
-    LineInterval chord;
-    if (!intersectLineBox(model, o.camera.center, ray, chord) ||
-        !intersectLine(model, o.camera.center, ray, chord))
+    Eigen::Vector3d inside;
+    if (!insideOnRay(body, o.camera.center, ray, inside))
       continue;
-    // the middle of the chord lies about where the ray comes nearest to the centre
-    const Eigen::Vector3d middle =
-        o.camera.center + 0.5 * (chord.enter + chord.leave) * ray;
     SupportPlane limit;
-    limit.normal = model.rotation * model.logGaugeJacobian(middle).head<3>() * -1.0;
+    limit.normal = outwards(body, inside);
     limit.normal -= limit.normal.dot(ray) * ray;
     if (!(limit.normal.norm() > 1e-9))
       continue;
     limit.normal.normalize();
-    limit.offset = limit.normal.dot(middle);
+    limit.offset = limit.normal.dot(inside);
     limit.sigma = sigma / std::sqrt(o.free_weight);
-    const double z = limit.residual(model) / sigma;
+    const double z = beyond(limit, body) / sigma;
     covered.cost += o.free_weight * std::min(z * z, MAX_COST);
     covered.limits.push_back(limit);
   }
   return covered;
 }
 
-double hingeCost(const std::vector<SupportPlane>& limits, const Superquadric& model) {
+double hingeCost(const std::vector<SupportPlane>& limits,
+                 const TaperedSuperquadric& body) {
   double cost = 0.0;
   for (const SupportPlane& limit : limits)
-    cost += std::pow(std::max(0.0, limit.residual(model)) / limit.sigma, 2);
+    cost += std::pow(std::max(0.0, beyond(limit, body)) / limit.sigma, 2);
   return cost;
 }
 
 } // namespace
+
+TaperedSuperquadric bodyOf(const SupportFit& fit) {
+  TaperedSuperquadric body;
+  const ShapeCandidate& chosen = fit.chosen;
+  const bool tapered = chosen.shape == ShapeClass::TAPERED;
+  body.shape = tapered ? chosen.model : fit.fit.model;
+  body.kx = tapered ? chosen.kx : 0.0;
+  body.ky = tapered ? chosen.ky : 0.0;
+  return body;
+}
 
 Piece wholePiece(const PieceContext& context) {
   Piece piece;
@@ -210,7 +259,7 @@ void fitPiece(const PieceContext& context,
     assessed.fit = std::move(fit);
     if (!assessed.fit.fit.ok())
       return assessed;
-    assessed.covered = coveredFreePixels(context, assessed.fit.fit.model).cost;
+    assessed.covered = coveredFreePixels(context, bodyOf(assessed.fit)).cost;
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
@@ -224,12 +273,12 @@ void fitPiece(const PieceContext& context,
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
     if (!coversFreePixels(best))
       break;
-    const Covered covered = coveredFreePixels(context, best.fit.fit.model);
+    const Covered covered = coveredFreePixels(context, bodyOf(best.fit));
     SupportEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
     options.start = best.fit.fit.model;
     SupportFit next = fitWithSupports(points, more, options);
-    const double hinges = hingeCost(covered.limits, next.fit.model);
+    const double hinges = hingeCost(covered.limits, bodyOf(next));
     Piece assessed = assess(std::move(next), hinges);
     if (!(assessed.score < best.score))
       break;

@@ -36,6 +36,9 @@ struct PieceContext {
   std::vector<SupportPlane> limits; ///< half-spaces that hold every part, roughly
 };
 
+/** \brief The body a fit has chosen, tapered or not. */
+TaperedSuperquadric bodyOf(const SupportFit& fit);
+
 /** \brief The whole object as one piece. */
 Piece wholePiece(const PieceContext& context);
 

@@ -18,7 +18,23 @@ struct SurfaceCells {
   Eigen::ArrayXd areas{8 * OCTANT};
 };
 
-SurfaceCells surfaceCells(const Superquadric& part) {
+/** \brief By how much tapering enlarges a small piece of the surface: its area vector
+ * is transformed by the cofactors of the taper's derivative. */
+double enlargement(const TaperedSuperquadric& body, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = body.shape.toLocal(point);
+  const Eigen::Vector3d n =
+      body.shape.rotation.transpose() * body.shape.gaugeGradient(point).normalized();
+  const double a3 = body.shape.semi_axes.z();
+  const double fx = 1.0 + body.kx * p.z() / a3, fy = 1.0 + body.ky * p.z() / a3;
+  return Eigen::Vector3d(n.x() * fy,
+                         n.y() * fx,
+                         n.z() * fx * fy - n.x() * body.kx * p.x() * fy / a3 -
+                             n.y() * body.ky * p.y() * fx / a3)
+      .norm();
+}
+
+SurfaceCells surfaceCells(const TaperedSuperquadric& body) {
+  const Superquadric& part = body.shape;
   SurfaceCells cells;
   const double volume = part.semi_axes.prod() / (CELLS * CELLS);
   for (int c = 0; c < OCTANT; ++c) {
@@ -36,9 +52,13 @@ SurfaceCells surfaceCells(const Superquadric& part) {
     for (int octant = 0; octant < 8; ++octant) {
       const Eigen::Vector3d sign(
           octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
-      cells.middles.col(8 * c + octant) =
-          part.toWorld(shrink * local.cwiseProduct(sign));
+      const Eigen::Vector3d middle = part.toWorld(shrink * local.cwiseProduct(sign));
+      cells.middles.col(8 * c + octant) = middle;
       cells.areas[8 * c + octant] = area;
+      if (body.isTapered()) {
+        cells.middles.col(8 * c + octant) = body.tapered(middle);
+        cells.areas[8 * c + octant] *= enlargement(body, middle);
+      }
     }
   }
   return cells;
@@ -46,7 +66,17 @@ SurfaceCells surfaceCells(const Superquadric& part) {
 
 } // namespace
 
-double outerArea(const std::vector<Superquadric>& parts) {
+Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
+                              const Eigen::Matrix3Xd& points) {
+  if (!body.isTapered())
+    return surfaceDistances(body.shape, points);
+  Eigen::VectorXd distances(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    distances[i] = body.footPointDistance(points.col(i));
+  return distances;
+}
+
+double outerArea(const std::vector<TaperedSuperquadric>& parts) {
   double sum = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const SurfaceCells cells = surfaceCells(parts[k]);
@@ -54,7 +84,7 @@ double outerArea(const std::vector<Superquadric>& parts) {
     // a cell that another part's surface crosses counts in part
     for (std::size_t j = 0; j < parts.size(); ++j)
       if (j != k)
-        visible = visible.min(0.5 + surfaceDistances(parts[j], cells.middles).array() /
+        visible = visible.min(0.5 + bodyDistances(parts[j], cells.middles).array() /
                                         cells.areas.sqrt());
     sum += (visible.max(0.0) * cells.areas).sum();
   }

@@ -14,6 +14,10 @@ inline constexpr double UPRIGHT = 0.9394;
 /** \brief The same body with its axes permuted cyclically so that axis \a k is z. */
 Superquadric withAxis(const Superquadric& m, int k);
 
+/** \brief The dual description of the cross-section: turned by 45 degrees about z,
+ * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
+Superquadric dual(const Superquadric& m);
+
 /** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up);
 

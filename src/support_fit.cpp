@@ -111,7 +111,7 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   }
   const std::vector<Trial> general = search(problem, result.fit.iterations);
   result.candidates = fitShapes(problem, general.front());
-  if (options.taper && options.choose_shape && !options.all_points)
+  if (options.taper && options.choose_shape)
     if (const auto tapered =
             fitTaper(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*tapered);

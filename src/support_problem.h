@@ -80,6 +80,11 @@ std::optional<ShapeCandidate> fitTaper(const SupportProblem& problem,
                                        double sigma,
                                        const std::vector<ShapeCandidate>& candidates);
 
+/** \brief Last iterations of a tapered body with all points. */
+void fitTaperAllPoints(const SupportProblem& problem,
+                       double sigma,
+                       ShapeCandidate& chosen);
+
 /** \brief Last iterations of the chosen family with all points. */
 void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& chosen);
 

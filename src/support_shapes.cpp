@@ -14,20 +14,6 @@ namespace {
 constexpr double BOX_EPSILON = 0.2;
 constexpr int ITERATIONS = 20;
 
-/** \brief The dual description of the cross-section: turned by 45 degrees about z,
- * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
-Superquadric dual(const Superquadric& m) {
-  Superquadric s = m;
-  const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
-  const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
-  const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
-  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
-  s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
-  s.rotation *=
-      Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return s;
-}
-
 /** \brief A solid of revolution that slides along its axis. */
 ParameterSpace coaxialSpace() {
   ParameterSpace space = standing(ParameterSpace::rotational(), 2);
@@ -200,6 +186,10 @@ Trial bestDescription(const SupportProblem& problem, Trial best) {
 } // namespace
 
 void fitAllPoints(const SupportProblem& problem, double sigma, ShapeCandidate& chosen) {
+  if (chosen.shape == ShapeClass::TAPERED) {
+    fitTaperAllPoints(problem, sigma, chosen);
+    return;
+  }
   Trial t;
   t.sigma = sigma;
   t.model = chosen.model;

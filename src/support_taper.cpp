@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
-#include "damped_solve.h"
 #include "shape_spaces.h"
-#include "support_problem.h"
-#include "taper_step.h"
-#include "taper_support.h"
+#include "tapered_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,177 +10,59 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int ITERATIONS = 20;
 /** \brief Least gain over a taper's parameters that is worth a fit: half of what its
  * prior demands, for one step need not tell all. */
 constexpr double WORTH_A_FIT = 0.5 * TAPER;
-constexpr double MIN_DAMPING = 1e-9, MAX_DAMPING = 1e8;
+/** \brief Cost per observation from which on no family is near the body, and a taper is
+ * looked for from the search's own starts. */
+constexpr double MISFIT = 1.3;
+constexpr double WIDE = 0.03;   ///< sigma of that search, in the points' deviation
+constexpr std::size_t KEPT = 2; ///< starts of it that are refined
 
-/** \brief Directions in which a tapered body may move. */
-using Basis = Eigen::Matrix<double, 13, Eigen::Dynamic, 0, 13, 13>;
-
-/** \brief A family's space with the taper's columns behind it. */
-Basis withTaper(const ParameterSpace& space, bool round) {
-  const Eigen::Index own = space.basis.cols(), taper = round ? 1 : 2;
-  Basis basis = Basis::Zero(13, own + taper);
-  basis.topLeftCorner(11, own) = space.basis;
-  basis(11, own) = 1.0;
-  basis(12, own + taper - 1) = 1.0;
-  return basis;
+/** \brief The solid of revolution most like a tapered body. */
+ShapeCandidate rounded(ShapeCandidate c) {
+  c.before = ShapeClass::ROTATIONAL;
+  c.model.semi_axes.head<2>().setConstant(
+      std::sqrt(c.model.semi_axes.x() * c.model.semi_axes.y()));
+  c.model.epsilon2 = 1.0;
+  c.kx = c.ky = 0.5 * (c.kx + c.ky);
+  return c;
 }
 
-struct Sums {
-  Matrix13 jtj = Matrix13::Zero();
-  Vector13 jtr = Vector13::Zero();
-  double cost = 0.0;
-};
+/** \brief The dual description of a tapered body's section. */
+ShapeCandidate bevelled(ShapeCandidate c) {
+  c.before = ShapeClass::GENERIC;
+  c.model = dual(c.model);
+  c.kx = c.ky = 0.5 * (c.kx + c.ky);
+  return c;
+}
 
-/** \brief Where a taper is tried from. */
-struct Start {
-  ShapeCandidate from; ///< its model with the axis along z
-  Basis basis;
-  int taper = 2;     ///< columns of it
-  double gain = 0.0; ///< by the taper, as far as one Gauss-Newton step can tell
-};
+/** \brief A tapered body with its axis turned upright. */
+ShapeCandidate standingUp(ShapeCandidate c, const Eigen::Vector3d& up) {
+  c.upright = true;
+  c.model = upright(c.model, 2, up);
+  return c;
+}
 
-class TaperedSupport {
-public:
-  TaperedSupport(const SupportProblem& problem, const UnitPoints& points, double sigma)
-      : problem_(problem), points_(points), limits_(problem.limits(sigma)),
-        planes_(problem.planes(sigma, points)) {}
-
-  double gainOf(const Start& start) const {
-    TaperedSuperquadric s;
-    s.shape = start.from.model;
-    const Sums sums = evaluate(s);
-    const int all = static_cast<int>(start.basis.cols());
-    return promised(s, sums, start.basis, all) -
-           promised(s, sums, start.basis, all - start.taper);
-  }
-
-  ShapeCandidate fit(const Start& start) const {
-    TaperedSuperquadric s;
-    s.shape = start.from.model;
-    const double cost = minimise(s, start.basis);
+/** \brief Tapered bodies from the search's own starts, the best few. */
+std::vector<ShapeCandidate> searchTapers(const SupportProblem& problem) {
+  const TaperedSupport rough(
+      problem, problem.coarse(), std::max(WIDE, 2.0 * problem.noise()));
+  std::vector<ShapeCandidate> candidates;
+  for (const Superquadric& start : supportStarts(problem)) {
     ShapeCandidate c;
-    c.shape = ShapeClass::TAPERED;
-    c.upright = start.from.upright;
-    c.parameters = static_cast<int>(start.basis.cols());
-    c.cost = cost / (planes_.unit * planes_.unit);
-    c.bic = c.cost + c.parameters * std::log(problem_.observations()) + TAPER;
-    c.model = s.shape;
-    c.kx = s.kx;
-    c.ky = s.ky;
-    return c;
+    c.shape = start.epsilon2 == 1.0 ? ShapeClass::ROTATIONAL : ShapeClass::GENERIC;
+    c.model = start;
+    if (c.shape == ShapeClass::ROTATIONAL)
+      c.model.semi_axes.head<2>().setConstant(start.semi_axes.head<2>().mean());
+    candidates.push_back(rough.fit(taperStart(problem, c, 2)));
   }
-
-private:
-  Sums evaluate(const TaperedSuperquadric& model) const {
-    Sums sums;
-    const kernels::Points points = points_.view();
-    const double s = 0.5 / (limits_.sigma * limits_.sigma), c = limits_.outlier;
-    for (std::size_t i = 0; i < points.count; ++i) {
-      const TaperRow row = taperRow(model, points_[i].cast<double>());
-      const double q = points.precision ? double(points.precision[i]) : 1.0;
-      const double square = q * row.residual * row.residual;
-      double share = 1.0, cost = square;
-      if (c > 0.0) {
-        const double density = std::exp(-s * square);
-        share = density / (density + c);
-        cost = (std::log1p(c) - std::log(density + c)) / s;
-      }
-      sums.cost += cost;
-      sums.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row.derivatives, share * q);
-      sums.jtr += share * q * row.residual * row.derivatives;
-    }
-    sums.jtj.triangularView<Eigen::StrictlyUpper>() = sums.jtj.transpose();
-    const auto row = [&](const Eigen::Vector3d& n) { return taperSupport(model, n); };
-    const auto reach = [&](const Eigen::Vector3d& n) {
-      return n.dot(model.shape.center) + model.support(n);
-    };
-    addSupportCost<13>(planes_, row, reach, sums);
-    return sums;
-  }
-
-  /** \brief Step over the first columns of a basis. \return what it promises to gain */
-  double step(const TaperedSuperquadric& s,
-              const Sums& sums,
-              const Basis& basis,
-              int columns,
-              double damping,
-              Vector13& full) const {
-    const auto used = basis.leftCols(columns);
-    Matrix13 jtj = Matrix13::Zero();
-    Vector13 jtr = Vector13::Zero(), free = Vector13::Zero();
-    jtj.topLeftCorner(columns, columns) = used.transpose() * sums.jtj * used;
-    jtr.head(columns) = used.transpose() * sums.jtr;
-    bool frozen[13] = {};
-    for (int i = 0; i < columns; ++i)
-      frozen[i] = leadsOut(s, Vector13(-jtr[i] * used.col(i)), limits_);
-    if (!dampedSolve<13>(jtj, jtr, columns, frozen, damping, free))
-      return -1.0;
-    full = used * free.head(columns);
-    return -jtr.head(columns).dot(free.head(columns));
-  }
-  /** \brief The same over the noise, without damping to speak of. */
-  double promised(const TaperedSuperquadric& s,
-                  const Sums& sums,
-                  const Basis& basis,
-                  int columns) const {
-    constexpr double DAMPING = 1e-3;
-    Vector13 unused;
-    const double gain = step(s, sums, basis, columns, DAMPING, unused);
-    return std::max(gain, 0.0) / (planes_.unit * planes_.unit);
-  }
-
-  double minimise(TaperedSuperquadric& s, const Basis& basis) const {
-    Sums sums = evaluate(s);
-    double damping = limits_.initial_damping;
-    for (int k = 0; k < ITERATIONS && damping < MAX_DAMPING; ++k) {
-      Vector13 full;
-      const double promise =
-          step(s, sums, basis, static_cast<int>(basis.cols()), damping, full);
-      if (promise >= 0.0) {
-        bool limited = false;
-        const double negligible = limits_.cost_tolerance * sums.cost;
-        if (damping <= 1.0 && promise <= negligible)
-          break;
-        const TaperedSuperquadric candidate = moved(s, full, limits_, limited);
-        const Sums next = evaluate(candidate);
-        if (next.cost < sums.cost) {
-          const bool small = !limited && sums.cost - next.cost <= negligible;
-          s = candidate;
-          sums = next;
-          damping = std::max(0.2 * damping, MIN_DAMPING);
-          if (small)
-            break;
-          continue;
-        }
-      }
-      damping *= 6.0;
-    }
-    return sums.cost;
-  }
-
-  const SupportProblem& problem_;
-  const UnitPoints& points_;
-  LmOptions limits_;
-  SupportCost planes_;
-};
-
-/** \brief A candidate with its axis k as z, and how it may move. */
-Start startFrom(const SupportProblem& problem, const ShapeCandidate& c, int k) {
-  const bool round = c.shape == ShapeClass::ROTATIONAL;
-  Start start;
-  start.from = c;
-  start.from.model = withAxis(c.model, k);
-  start.taper = round ? 1 : 2;
-  ParameterSpace space = spaceOf(c.shape);
-  for (int axis = 0; axis < 3 && c.upright; ++axis)
-    if (std::abs(start.from.model.rotation.col(axis).dot(problem.up())) > UPRIGHT)
-      space = standing(space, axis);
-  start.basis = withTaper(space, round);
-  return start;
+  std::sort(
+      candidates.begin(),
+      candidates.end(),
+      [](const ShapeCandidate& a, const ShapeCandidate& b) { return a.bic < b.bic; });
+  candidates.resize(std::min(candidates.size(), KEPT));
+  return candidates;
 }
 
 } // namespace
@@ -191,43 +70,70 @@ Start startFrom(const SupportProblem& problem, const ShapeCandidate& c, int k) {
 std::optional<ShapeCandidate> fitTaper(const SupportProblem& problem,
                                        double sigma,
                                        const std::vector<ShapeCandidate>& candidates) {
-  const ShapeCandidate *round = nullptr, *other = nullptr;
+  // the best of each kind: of revolution or not, held upright or not
+  const ShapeCandidate* best[2][2] = {};
   double least = 1e300;
   for (const ShapeCandidate& c : candidates) {
     least = std::min(least, c.cost);
-    const bool is_round = c.shape == ShapeClass::ROTATIONAL;
     if (c.on_axis || c.shape == ShapeClass::ELLIPSOID)
       continue;
-    const ShapeCandidate*& best = is_round ? round : other;
-    if (!best || c.bic < best->bic)
-      best = &c;
+    const ShapeCandidate*& of_kind =
+        best[c.shape == ShapeClass::ROTATIONAL ? 1 : 0][c.upright ? 1 : 0];
+    if (!of_kind || c.bic < of_kind->bic)
+      of_kind = &c;
   }
   const TaperedSupport quick(problem, problem.coarse(), sigma);
   const TaperedSupport thorough(problem, problem.medium(), sigma);
   const double observations = problem.observations();
   const double inflation = std::max(1.0, least / observations);
   std::optional<ShapeCandidate> found;
-  const auto tryFrom = [&](std::vector<Start> starts) {
-    Start* best = nullptr;
-    for (Start& start : starts) {
-      start.gain = quick.gainOf(start);
-      if (!best || start.gain > best->gain)
-        best = &start;
-    }
-    if (!best ||
-        best->gain < inflation * (best->taper * std::log(observations) + WORTH_A_FIT))
-      return;
-    const ShapeCandidate c = thorough.fit(*best);
+  const auto fitFrom = [&](const TaperStart& start) {
+    const ShapeCandidate c = thorough.fit(start);
     if (!found || c.bic < found->bic)
       found = c;
   };
-  if (round)
-    tryFrom({startFrom(problem, *round, 2)});
-  if (other)
-    tryFrom({startFrom(problem, *other, 0),
-             startFrom(problem, *other, 1),
-             startFrom(problem, *other, 2)});
+  for (const auto& kind : best)
+    for (const ShapeCandidate* from : kind) {
+      if (!from)
+        continue;
+      TaperStart most; // of the axes along which it may be tapered
+      for (int k = from->shape == ShapeClass::ROTATIONAL ? 2 : 0; k < 3; ++k) {
+        TaperStart start = taperStart(problem, *from, k);
+        start.gain = quick.gainOf(start);
+        if (start.gain >= most.gain)
+          most = std::move(start);
+      }
+      if (most.gain >= inflation * (most.taper * std::log(observations) + WORTH_A_FIT))
+        fitFrom(most);
+    }
+  if (inflation > MISFIT)
+    for (const ShapeCandidate& c : searchTapers(problem))
+      fitFrom(taperStart(problem, c, 2));
+  if (!found)
+    return found;
+  // untapered, a lampshade is best described lying down, or flat; tapered, it may turn
+  // out to stand, and to be round
+  if (found->before != ShapeClass::ROTATIONAL) {
+    const ShapeCandidate angular = *found;
+    fitFrom(taperStart(problem, bevelled(angular), 2));
+    fitFrom(taperStart(problem, rounded(angular), 2));
+  }
+  if (!found->upright && problem.hasUp() &&
+      std::abs(found->model.rotation.col(2).dot(problem.up())) > UPRIGHT)
+    fitFrom(taperStart(problem, standingUp(*found, problem.up()), 2));
   return found;
+}
+
+void fitTaperAllPoints(const SupportProblem& problem,
+                       double sigma,
+                       ShapeCandidate& chosen) {
+  const ShapeCandidate fitted =
+      TaperedSupport(problem, problem.all(), sigma).fit(taperStart(problem, chosen, 2));
+  chosen.bic += fitted.cost - chosen.cost; // which may be scaled by the misfit
+  chosen.cost = fitted.cost;
+  chosen.model = fitted.model;
+  chosen.kx = fitted.kx;
+  chosen.ky = fitted.ky;
 }
 
 } // namespace pcl_sq::detail

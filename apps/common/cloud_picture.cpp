@@ -2,7 +2,6 @@
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "cloud_picture.h"
 
-#include "pcl_sq/tapered_superquadric.h"
 #include "pcl_sq/visualization/palette.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
@@ -23,15 +22,8 @@ void addCloud(SnapshotRenderer& renderer, const LoadedCloud& input) {
 
 std::vector<TriangleMesh> meshesOf(const ModelFile& file) {
   std::vector<TriangleMesh> meshes;
-  for (std::size_t i = 0; i < file.model.size(); ++i) {
-    TaperedSuperquadric s;
-    s.shape = file.model.parts[i];
-    if (i < file.tapers.size()) {
-      s.kx = file.tapers[i][0];
-      s.ky = file.tapers[i][1];
-    }
-    meshes.push_back(meshSuperquadric(s));
-  }
+  for (const TaperedSuperquadric& part : file.tapered().parts)
+    meshes.push_back(meshSuperquadric(part));
   return meshes;
 }
 

@@ -96,6 +96,7 @@ ModelResult makeModel(const LoadedCloud& input,
   estimation.setIndices(selection.indices);
   EstimationOptions settings = options.estimation;
   settings.view = makeView(options);
+  settings.object_fit.fit.taper = options.taper;
   std::string why;
   if (!settings.isValid(&why))
     throw Failure(why + ".");

@@ -22,6 +22,8 @@ std::string optionsToJson(const ModelOptions& options) {
   if (e.decomposition == Decomposition::PARTS) {
     json["parts"] = e.object_fit.parts;
     json["max_parts"] = e.object_fit.max_parts;
+    if (options.taper)
+      json["taper"] = true;
     if (!options.mask.empty())
       json["mask"] = options.mask;
     return json.dump();

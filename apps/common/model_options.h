@@ -62,7 +62,7 @@ struct ModelResult {
   pcl::Indices object;                   ///< points that were given to the estimation
   std::optional<Eigen::Vector3d> up;     ///< normal of the table, where one is known
   std::optional<Eigen::Vector3d> sensor; ///< camera's place, where one is known
-  std::optional<TaperedFit> taper;       ///< with --taper
+  std::optional<TaperedFit> taper;       ///< with --taper and one superquadric
 };
 
 /** \brief Region, plane removal and estimation. \throw Failure if there is no model */
@@ -71,8 +71,8 @@ ModelResult makeModel(const LoadedCloud& input,
                       const ModelOptions& options,
                       double load_ms);
 
-/** \brief Gives a model of one superquadric its taper, if the points demand one.
- * \return whether they do \throw Failure if they allow no fit */
+/** \brief Gives the model's parts their tapers, where the data demand any.
+ * \return whether they do \throw Failure if the points allow no fit */
 bool addTaper(const LoadedCloud& input,
               const ModelOptions& options,
               ModelResult& result);

@@ -3,6 +3,7 @@
 
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
+#include "pcl_sq/tapered_union.h"
 
 namespace pcl_sq {
 
@@ -20,7 +21,9 @@ struct PCL_SQ_EXPORTS ObjectFitOptions {
 
 /** \brief An object as a union of superquadrics. */
 struct ObjectFit {
-  MultiSuperquadric model;
+  MultiSuperquadric model; ///< no part of it is tapered
+  /** \brief The same with those parts tapered for which TAPERED was chosen. */
+  TaperedUnion tapered;
   std::vector<SupportFit> parts; ///< one per part of the model
   std::vector<int> labels;       ///< part of each observed point, -1: none
   double bic = 0.0;              ///< of the whole object

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/multi_superquadric.h"
+#include "pcl_sq/tapered_union.h"
 
 #include <array>
 #include <string>
@@ -20,11 +20,13 @@ struct PartStatistics {
 
 /** \brief The contents of a model file (schema "pcl_sq/model", version 1; version 2
  * where a part is tapered, so that no reader of version 1 takes it for untapered). */
-struct ModelFile {
+struct PCL_SQ_EXPORTS ModelFile {
   MultiSuperquadric model;
   std::vector<PartStatistics> statistics; ///< one per part, or empty
   /** \brief kx, ky of each part as in TaperedSuperquadric, or empty: no taper. */
   std::vector<std::array<double, 2>> tapers;
+  /** \brief The model with its tapers. */
+  TaperedUnion tapered() const;
   std::string frame;               ///< name of the coordinate frame
   double distortion = 0.0;         ///< D of the union, Eq. (7) [m^1.5]
   double rms_distance = 0.0;       ///< of the union [m]

@@ -39,10 +39,11 @@ struct ShapeCandidate {
   /** \brief cost / c + parameters * ln(observations); c is 1 unless the best family's
    * cost exceeds the observations, and that ratio where it does. */
   double bic = 0.0;
-  double cost = 0.0;         ///< cost / sigma^2, points and planes
-  int parameters = 11;       ///< free ones
-  Superquadric model;        ///< of a TAPERED one: before tapering
-  double kx = 0.0, ky = 0.0; ///< its taper, see TaperedSuperquadric
+  double cost = 0.0;                       ///< cost / sigma^2, points and planes
+  int parameters = 11;                     ///< free ones
+  Superquadric model;                      ///< of a TAPERED one: before tapering
+  double kx = 0.0, ky = 0.0;               ///< its taper, see TaperedSuperquadric
+  ShapeClass before = ShapeClass::GENERIC; ///< its family before tapering
 };
 
 /** \brief Settings of fitWithSupports(). */
@@ -64,8 +65,8 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   /** \brief Whether the chosen family's fit ends with all points instead of a sample:
    * its cost can then be compared with that of other parts of the same points. */
   bool all_points = false;
-  /** \brief Whether TAPERED is among the families; not with \a all_points. Off unless
-   * asked for: what takes a union of superquadrics takes no taper. */
+  /** \brief Whether TAPERED is among the families. Off unless asked for: what takes a
+   * union of superquadrics takes no taper; it costs several times the time. */
   bool taper = false;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number

@@ -198,13 +198,45 @@ TEST(FitApp, TapersACupAndLeavesACanAlone) {
   }
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
            {"--decomposition", "prisms"},
-           {},
+           {"--grasps", "5"},
            {"--decomposition", "none", "--grasps", "5"},
            {"--decomposition", "none", "--grasp-points", folder / "g.pcd"}}) {
     std::vector<std::string> arguments = {folder / "cup.pcd", "--taper"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expectRefusal(folder, arguments, 2);
   }
+}
+
+TEST(FitApp, PartsMayBeTaperedAndEvaluateReadsThem) {
+  const Folder folder;
+  TaperedSuperquadric pot;
+  pot.shape.center = {0.0, 0.1, 0.7};
+  pot.shape.semi_axes = {0.036, 0.036, 0.048};
+  pot.shape.epsilon1 = 0.15;
+  pot.kx = pot.ky = 0.35;
+  std::vector<Eigen::Vector3f> points;
+  for (const Eigen::Vector3d& p : sampleUniform(pot.shape, 2000))
+    points.push_back(pot.tapered(p).cast<float>());
+  const std::string cloud = folder.write("pot.pcd", pcdOf(points));
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {cloud, "--taper", "-o", folder / "m.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  ModelFile file;
+  std::string why;
+  ASSERT_TRUE(fromJson(slurp(folder / "m.json"), file, &why, TaperedParts::READ))
+      << why;
+  ASSERT_EQ(file.tapered().size(), 1u);
+  EXPECT_TRUE(file.tapered().isTapered());
+  EXPECT_NEAR(file.tapered().parts[0].volume(), pot.volume(), 0.02 * pot.volume());
+  EXPECT_LT(file.rms_distance, 5e-4);
+  const ProgramRun judged = runProgram(
+      "pcl_sq_evaluate", {folder / "m.json", "--cloud", cloud, "--format", "table"});
+  ASSERT_EQ(judged.code, 0) << judged.err;
+  std::istringstream table(judged.out.substr(judged.out.find("cloud to model, rms")));
+  std::string word;
+  double rms = 1e9;
+  table >> word >> word >> word >> word >> rms;
+  EXPECT_LT(rms, 0.5) << judged.out; // [mm]
 }
 
 TEST(FitApp, BadCommandLinesEndWithTwo) {

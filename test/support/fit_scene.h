@@ -23,4 +23,21 @@ inline ObjectFit fitScene(const ViewScene& scene,
   return fitObject(observed, options);
 }
 
+/** \brief Share of the volume of two unions that both have, tapered or not. */
+template <typename A, typename B>
+double overlap(const A& a, const B& b) {
+  Eigen::AlignedBox3d box = a.boundingBox();
+  box.extend(b.boundingBox());
+  Random random(10);
+  int both = 0, any = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d at(
+        random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    const Eigen::Vector3d p = box.min() + box.sizes().cwiseProduct(at);
+    both += a.contains(p) && b.contains(p);
+    any += a.contains(p) || b.contains(p);
+  }
+  return double(both) / any;
+}
+
 } // namespace pcl_sq::test

@@ -44,22 +44,6 @@ ViewScene cupScene() {
   return scene;
 }
 
-/** \brief Share of the volume of two unions that both have. */
-double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
-  Eigen::AlignedBox3d box = a.boundingBox();
-  box.extend(b.boundingBox());
-  Random random(10);
-  int both = 0, any = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Eigen::Vector3d at(
-        random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
-    const Eigen::Vector3d p = box.min() + box.sizes().cwiseProduct(at);
-    both += a.contains(p) && b.contains(p);
-    any += a.contains(p) || b.contains(p);
-  }
-  return double(both) / any;
-}
-
 /** \brief Points all around the outer surface of a union, with noise [m]. */
 Eigen::Matrix3Xf allRound(const MultiSuperquadric& object, double noise) {
   Random random(12);
@@ -255,6 +239,70 @@ TEST(FitObject, OrderOfThePointsDoesNotMatterMuch) {
   const ObjectFit one = fitObject(a), other = fitObject(b);
   ASSERT_EQ(one.model.size(), other.model.size());
   EXPECT_GT(overlap(one.model, other.model), 0.97);
+}
+
+TEST(FitObject, PotIsOneTaperedPartWhereTapersAreAskedFor) {
+  ObjectFitOptions options;
+  options.fit.taper = true;
+  ViewScene scene = fineScene();
+  scene.addUpright({0.035, 0.035, 0.05}, 0.2, 1.0, 0.05);
+  for (const double taper : {0.3, -0.3}) {
+    scene.taper = taper;
+    scene.render(0.001);
+    const ObjectFit fit = fitScene(scene, options);
+    ASSERT_EQ(fit.tapered.size(), 1u);
+    EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::TAPERED);
+    EXPECT_EQ(fit.parts[0].chosen.before, ShapeClass::ROTATIONAL);
+    EXPECT_GT(fit.parts[0].margin, 10.0);
+    EXPECT_NEAR(std::abs(fit.tapered.parts[0].kx), 0.3, 0.05);
+    const double found = overlap(fit.tapered, scene.tapered());
+    EXPECT_GT(found, 0.93);
+    // without, it is a stack of parts or a poor one
+    const ObjectFit plain = fitScene(scene);
+    EXPECT_FALSE(plain.tapered.isTapered());
+    EXPECT_LT(overlap(plain.model, scene.tapered()), found - 0.05);
+  }
+}
+
+TEST(FitObject, CanAndBottleTakeNoTaper) {
+  ObjectFitOptions options;
+  options.fit.taper = true;
+  ViewScene can;
+  can.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
+  can.render(0.001);
+  for (const ViewScene& scene : {can, bottleScene()}) {
+    const ObjectFit fit = fitScene(scene, options), plain = fitScene(scene);
+    EXPECT_FALSE(fit.tapered.isTapered());
+    ASSERT_EQ(fit.model.size(), plain.model.size());
+    EXPECT_EQ(fit.model.parts[0].toCoefficients(),
+              plain.model.parts[0].toCoefficients());
+  }
+}
+
+TEST(FitObject, ConeSeenFromAllSidesIsOneTaperedPart) {
+  TaperedSuperquadric cone;
+  cone.shape.center = {0.1, -0.2, 0.7};
+  cone.shape.rotation = Random(4).rotation();
+  cone.shape.semi_axes = {0.04, 0.04, 0.06};
+  cone.shape.epsilon1 = 0.3;
+  cone.kx = cone.ky = 0.5;
+  TaperedUnion truth;
+  truth.parts.push_back(cone);
+  Random random(21);
+  const std::vector<Eigen::Vector3d> even = sampleUniform(cone.shape, 2500);
+  Eigen::Matrix3Xf points(3, Eigen::Index(even.size()));
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
+    points.col(Eigen::Index(i)) =
+        (cone.tapered(even[i]) + 0.0007 * error).cast<float>();
+  }
+  ObservedObject observed;
+  ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
+  ObjectFitOptions options;
+  options.fit.taper = true;
+  const ObjectFit fit = fitObject(observed, options);
+  ASSERT_EQ(fit.tapered.size(), 1u);
+  EXPECT_GT(overlap(fit.tapered, truth), 0.97);
 }
 
 TEST(FitObject, SettingsOutOfRangeAreRefusedWithASentence) {

@@ -10,23 +10,6 @@ using namespace pcl_sq::test;
 
 namespace {
 
-/** \brief Share of the volume of two unions that both have. */
-double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
-  Eigen::AlignedBox3d box = a.boundingBox();
-  box.extend(b.boundingBox());
-  Random random(10);
-  int both = 0, any = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Eigen::Vector3d p =
-        box.min() + box.sizes().cwiseProduct(Eigen::Vector3d(random.uniform(0, 1),
-                                                             random.uniform(0, 1),
-                                                             random.uniform(0, 1)));
-    both += a.contains(p) && b.contains(p);
-    any += a.contains(p) || b.contains(p);
-  }
-  return double(both) / any;
-}
-
 ObjectFitOptions onePart() {
   ObjectFitOptions options;
   options.max_parts = 1;

@@ -171,6 +171,8 @@ bool ObjectSurfaceEstimation<PointT>::fitObject(MultiSuperquadric& model) {
     return fail(std::to_string(report_.view.points.cols()) +
                 " points give no superquadric: they must span a volume");
   model = fit.model;
+  if (options.fit.taper)
+    report_.tapered = fit.tapered;
   report_.parts.resize(fit.parts.size());
   for (std::size_t k = 0; k < fit.parts.size(); ++k) {
     PartReport& part = report_.parts[k];
@@ -263,6 +265,7 @@ bool ObjectSurfaceEstimation<PointT>::fitParts(const pcl::IndicesPtr& object,
 template <typename PointT>
 void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
                                                const MultiSuperquadric& model) {
+  report_.object_indices = *object;
   const Eigen::Matrix3Xf points = detail::gatherPoints(*input_, *object);
   report_.distortion = model.distortion(points);
   report_.rms_distance = model.rmsDistance(points);
