@@ -28,6 +28,10 @@ constexpr double FREE_SIGMA = 0.03;
  * cans, boxes and balls. A pinched part follows errors of its points, and its hidden
  * side comes out too flat. */
 constexpr double PART_EPSILON = 1.0;
+/** \brief How far from a cut the outline may be the joint's or the other part's, over
+ * the part's size: shoulders are round, and cuts are not placed better than that. A
+ * line that touches what is left of a bottle's shoulder makes its neck as wide. */
+constexpr double JOINT = 0.15;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
 
@@ -136,6 +140,43 @@ double hingeCost(const std::vector<SupportPlane>& limits,
   return cost;
 }
 
+/** \brief Width of the strip at a cut in which a piece has no outline of its own; the
+ * sine of its angle. */
+double stripWidth(const ObservedObject& o) {
+  return (o.outline == OutlineSource::POINTS ? 0.8 * o.outline_sigma : 2.0) /
+         std::sqrt(o.camera.fx * o.camera.fy);
+}
+
+/** \brief A piece's outline without its joints to other pieces. */
+std::vector<ContourPoint>
+outlineBesideJoints(const ObservedObject& o, const Piece& piece, double size) {
+  if (!o.hasCamera() || piece.ends.empty())
+    return piece.contour;
+  const double joint = JOINT * size / o.depth;
+  const auto beyondJoints = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Vector3d ray = o.camera.ray(pixel);
+    double nearest = 1e300;
+    for (const SupportPlane& end : piece.ends)
+      nearest = std::min(nearest, -end.normal.dot(ray) - joint);
+    return nearest;
+  };
+  std::vector<ContourPoint> contour;
+  for (const ContourPoint& p : piece.contour)
+    if (beyondJoints(p.pixel) > 0.0)
+      contour.push_back(p);
+  const double strip = stripWidth(o);
+  for (const Eigen::Vector2d& p : piece.pixels) {
+    const double side = beyondJoints(p);
+    if (side > 0.0 && side < strip) {
+      ContourPoint foreign;
+      foreign.pixel = p;
+      foreign.own = false;
+      contour.push_back(foreign);
+    }
+  }
+  return contour;
+}
+
 } // namespace
 
 TaperedSuperquadric bodyOf(const SupportFit& fit) {
@@ -197,9 +238,7 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
     for (const ContourPoint& p : piece.contour)
       if (inside(p.pixel))
         part.contour.push_back(p);
-    const double near =
-        (o.outline == OutlineSource::POINTS ? 0.8 * o.outline_sigma : 2.0) /
-        std::sqrt(o.camera.fx * o.camera.fy);
+    const double near = stripWidth(o);
     for (const Eigen::Vector2d& p : piece.pixels) {
       const double side = cut.normal.dot(o.camera.ray(p));
       if (side <= 0.0)
@@ -248,8 +287,10 @@ void fitPiece(const PieceContext& context,
   }
   if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
     options.start = piece.fit.fit.model;
-  SupportEvidence evidence = o.evidence(
-      piece.contour, context.options.silhouette_lines, reachesTable(context, points));
+  SupportEvidence evidence =
+      o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
+                 context.options.silhouette_lines,
+                 reachesTable(context, points));
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(

@@ -101,10 +101,12 @@ silhouetteLines(const std::vector<ContourPoint>& contour, int count, double tole
   const std::vector<ContourPoint> hull = convexHull(contour);
   if (hull.size() < 3)
     return lines;
-  std::vector<ContourPoint> foreign;
+  std::vector<ContourPoint> foreign, own;
   for (const ContourPoint& p : contour)
-    if (!p.own)
-      foreign.push_back(p);
+    (p.own ? own : foreign).push_back(p);
+  // along a straight side the tolerance is used up after so many pixels by a line that
+  // is turned by three quarters of a step: nearer own points say nothing of a line
+  const double reach = tolerance / std::sin(0.75 * 2.0 * M_PI / std::max(8, count));
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * M_PI * k / count;
     SilhouetteLine line;
@@ -115,11 +117,21 @@ silhouetteLines(const std::vector<ContourPoint>& contour, int count, double tole
         line.offset = line.direction.dot(p.pixel);
         line.contact = p.pixel;
       }
-    const bool known =
-        std::none_of(foreign.begin(), foreign.end(), [&](const ContourPoint& p) {
-          return line.direction.dot(p.pixel) >= line.offset - tolerance;
-        });
-    if (known)
+    const auto touched = [&](const ContourPoint& p) {
+      return line.direction.dot(p.pixel) >= line.offset - tolerance;
+    };
+    std::vector<Eigen::Vector2d> unknown;
+    for (const ContourPoint& p : foreign)
+      if (touched(p))
+        unknown.push_back(p.pixel);
+    const auto apart = [&](const ContourPoint& p) {
+      return touched(p) &&
+             std::all_of(unknown.begin(), unknown.end(), [&](const Eigen::Vector2d& q) {
+               return (p.pixel - q).squaredNorm() >= reach * reach;
+             });
+    };
+    // a straight side is tangent all along, wherever the outline is lost beyond its end
+    if (unknown.empty() || std::any_of(own.begin(), own.end(), apart))
       lines.push_back(line);
   }
   return lines;

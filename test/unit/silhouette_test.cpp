@@ -72,6 +72,29 @@ TEST(Silhouette, PlanesOfARenderedMaskTouchTheBodyWithinAPixel) {
   }
 }
 
+TEST(Silhouette, StraightSideIsTangentThoughTheOutlineIsLostBeyondItsEnd) {
+  std::vector<ContourPoint> contour;
+  for (int y = 0; y <= 60; ++y)
+    for (const int x : {0, 20})
+      contour.push_back({{double(x), double(y)}, true});
+  for (int x = 0; x <= 20; ++x) {
+    contour.push_back({{double(x), 60.0}, true});
+    contour.push_back({{double(x), 0.0}, false}); // it goes on beyond that end
+  }
+  const auto lines = silhouetteLines(contour, 48);
+  const auto holds = [&lines](double degrees) {
+    const double angle = degrees * M_PI / 180.0;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    return std::any_of(lines.begin(), lines.end(), [&](const SilhouetteLine& line) {
+      return line.direction.dot(direction) > 0.9999;
+    });
+  };
+  for (const double degrees : {0.0, 180.0, 7.5, 90.0})
+    EXPECT_TRUE(holds(degrees)) << degrees;
+  for (const double degrees : {-7.5, 187.5, -45.0, 270.0})
+    EXPECT_FALSE(holds(degrees)) << degrees;
+}
+
 TEST(Silhouette, CameraInAnyPoseGivesTheSamePlanesInItsFrame) {
   Random random(2);
   const PinholeCamera camera = someCamera();
