@@ -129,6 +129,7 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
        !o.depth.empty()                          ? "depth image"
        : o.stereo.matcher == StereoMatcher::SGBM ? "sgbm"
                                                  : "bm"},
+      {"refined", o.depth.empty() && o.stereo.refine},
       {"wls", o.stereo.wls},
       {"coverage", front.stereo.coverage},
       {"roi", {r.x, r.y, r.width, r.height}},
@@ -239,6 +240,7 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
 
 int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
   const bool best = model.estimation.decomposition == Decomposition::PARTS;
+  front_options.stereo.refine = front_options.refine.value_or(best);
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);

@@ -16,6 +16,7 @@ struct FrontOptions {
   std::vector<std::string> calib; ///< one or two files
   double calib_unit = 1.0;        ///< of the calibration's lengths [m]
   StereoOptions stereo;
+  std::optional<bool> refine;     ///< of the disparities; not given: in the best mode
   std::string depth;              ///< depth image instead of a right one
   double depth_unit = 0.001;      ///< of its steps [m]
   std::vector<double> intrinsics; ///< fx, fy, cx, cy of the depth image

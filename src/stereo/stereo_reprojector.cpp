@@ -2,6 +2,7 @@
 #include "pcl_sq/stereo/stereo_reprojector.h"
 
 #include "stereo/matching.h"
+#include "stereo/refine_disparity.h"
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
@@ -115,6 +116,8 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
   double share = 0.0;
   if (range.count > 0) {
     disparity = detail::matchPair(grey_left, grey_right, left, range, options_);
+    if (options_.refine)
+      detail::refineDisparity(grey_left, grey_right, disparity);
     // d + doffs = 0 is infinitely far
     disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
                     disparity <= -intrinsics.doffs);

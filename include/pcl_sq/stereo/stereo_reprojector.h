@@ -28,7 +28,8 @@ struct StereoResult {
 
 /** \brief Disparity by block matching (paper, II-A, Eq. 1) and the cloud from it.
  *
- * Sub-pixel disparities are kept (OpenCV's sixteenths), d = 0 and other marks of
+ * Sub-pixel disparities are kept (OpenCV's sixteenths) and, unless
+ * StereoOptions::refine is off, refined on the images; d = 0 and other marks of
  * missing pixels become NaN, depth is computed in double precision.
  * \ingroup pcl_sq */
 class PCL_SQ_EXPORTS StereoReprojector {
