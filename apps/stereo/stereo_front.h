@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
+
 namespace pcl_sq::app {
 
 /** \brief How an object's cloud is got from images. */
