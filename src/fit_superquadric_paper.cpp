@@ -18,8 +18,11 @@ namespace pcl_sq {
 namespace {
 
 constexpr std::size_t MIN_POINTS = 10; ///< for three parameters and some noise
-constexpr double COST_TOLERANCE = 1e-7;
-constexpr double STEP_TOLERANCE = 1e-6; ///< exponents and ln a3 are of order one
+/** \brief Exponents and ln a3 are of order one. Steps end the fit, not costs: near the
+ * minimum those differ by less than the rounding of their single-precision residuals,
+ * which the points' order changes, while the gradient still shows the way. */
+constexpr double STEP_TOLERANCE = 2e-7;
+constexpr double ROUNDING = 1e-6; ///< of a cost, relative
 constexpr double MAX_DAMPING = 1e10;
 
 using detail::PaperProblem;
@@ -53,12 +56,14 @@ FitSummary minimise(const PaperProblem& problem,
         hessian.diagonal().cwiseMax(1e-12 * hessian.trace());
     hessian += damping * Eigen::Matrix3d(scaling.asDiagonal());
     const Eigen::Vector3d candidate = problem.clamp(x - hessian.ldlt().solve(gradient));
+    const double promised = gradient.dot(x - candidate); // twice, at the minimum
     if ((candidate - x).cwiseAbs().maxCoeff() < STEP_TOLERANCE) {
       summary.termination = Termination::STEP_TOO_SMALL;
       break;
     }
     const PaperProblem::Normal next = problem.linearise(candidate);
-    if (!(next.cost < normal.cost)) {
+    const double slack = promised < ROUNDING * normal.cost ? ROUNDING * normal.cost : 0.0;
+    if (!(next.cost < normal.cost + slack)) {
       damping *= 6.0;
       if (damping > MAX_DAMPING) {
         summary.termination = Termination::DAMPING_TOO_LARGE;
@@ -66,14 +71,9 @@ FitSummary minimise(const PaperProblem& problem,
       }
       continue;
     }
-    const bool converged = normal.cost - next.cost < COST_TOLERANCE * normal.cost;
     x = candidate;
     normal = next;
     damping = std::max(0.2 * damping, 1e-12);
-    if (converged) {
-      summary.termination = Termination::COST_CHANGE_TOO_SMALL;
-      break;
-    }
   }
   summary.model = problem.superquadricAt(x);
   summary.distortion = normal.cost;
