@@ -152,10 +152,11 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option(
          "--left-right", o.stereo.left_right_tolerance, "Check [px]; negative: none")
       ->capture_default_str();
-  cli.add_flag("--refine,!--no-refine",
-               o.refine,
-               "Least-squares matching with slanted windows after the matcher; default "
-               "but in the paper's mode");
+  cli.add_flag_function(
+      "--refine,!--no-refine",
+      [&o](std::int64_t given) { o.refine = given > 0; },
+      "Least-squares matching with slanted windows after the matcher; default but in "
+      "the paper's mode");
   cli.add_flag("--wls", o.stereo.wls, "Edge-aware smoothing of the disparities");
   cli.add_option("--depth", o.depth, "Depth image (16-bit PNG) instead of a right one")
       ->type_name("FILE");
