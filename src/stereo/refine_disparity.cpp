@@ -4,16 +4,17 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace pcl_sq::detail {
 namespace {
 
-constexpr int HALF = 4;           ///< of the window's side [px]
-constexpr float WIDTH = 2.0F;     ///< standard deviation of the window's weights [px]
+constexpr int HALF = 4; ///< of the window's side [px]
+/** Weights of a window's rows and columns, exp(-x^2 / 8). */
+constexpr float BELL[2 * HALF + 1] = {
+    0.135F, 0.325F, 0.607F, 0.882F, 1.0F, 0.882F, 0.607F, 0.325F, 0.135F};
+constexpr int BLOCK = 8;          ///< windows that are summed at once
 constexpr int PASSES = 4;         ///< Gauss-Newton steps
 constexpr float GATE = 1.0F;      ///< how far a neighbour may lie off the plane [px]
 constexpr float MAX_MOVE = 1.5F;  ///< from the matcher's disparity [px]
@@ -30,12 +31,32 @@ constexpr int NOISE_WINDOW = 15;     ///< in which the grey values' variance is 
 
 constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
 
-/** \brief Planes of disparities, and what the images say about each pixel's own. */
+/** \brief Planes of disparities, and what the images say about each pixel's own. All
+ * with a margin, so that windows and blocks need no look at the border. */
 struct State {
   cv::Mat disparity, slope_u, slope_v; ///< CV_32F
   cv::Mat weight;                      ///< square gradient and prior; 0 = missing
   cv::Mat moment;                      ///< weight times wanted disparity
+
+  explicit State(const cv::Mat& matched) {
+    cv::copyMakeBorder(matched,
+                       disparity,
+                       HALF,
+                       HALF,
+                       HALF,
+                       HALF + BLOCK,
+                       cv::BORDER_CONSTANT,
+                       cv::Scalar(NOTHING));
+    for (cv::Mat* m : {&slope_u, &slope_v, &weight, &moment})
+      *m = cv::Mat::zeros(disparity.size(), CV_32F);
+  }
 };
+const float* row(const cv::Mat& with_margin, int v) {
+  return with_margin.ptr<float>(v + HALF) + HALF;
+}
+float* row(cv::Mat& with_margin, int v) {
+  return with_margin.ptr<float>(v + HALF) + HALF;
+}
 
 /** \brief Grey values of matched pixels. */
 struct Comparison {
@@ -46,12 +67,12 @@ struct Comparison {
  * of the disparity does to R(u - d); both 0 where nothing is compared. */
 void compareRow(const cv::Mat& left,
                 const cv::Mat& right,
-                const cv::Mat& disparity,
+                const State& state,
                 int v,
                 Comparison& out) {
   const auto* l = left.ptr<float>(v);
   const auto* r = right.ptr<float>(v);
-  const auto* d = disparity.ptr<float>(v);
+  const auto* d = row(state.disparity, v);
   auto* difference = out.difference.ptr<float>(v);
   auto* gradient = out.gradient.ptr<float>(v);
   auto* compared = out.compared.ptr<float>(v);
@@ -93,10 +114,10 @@ void lineariseRow(const Comparison& c, int v, State& s) {
   const auto* difference = c.difference.ptr<float>(v);
   const auto* gradient = c.gradient.ptr<float>(v);
   const auto* variance = c.variance.ptr<float>(v);
-  const auto* d = s.disparity.ptr<float>(v);
-  auto* weight = s.weight.ptr<float>(v);
-  auto* moment = s.moment.ptr<float>(v);
-  for (int u = 0; u < s.disparity.cols; ++u) {
+  const auto* d = row(s.disparity, v);
+  auto* weight = row(s.weight, v);
+  auto* moment = row(s.moment, v);
+  for (int u = 0; u < c.variance.cols; ++u) {
     const bool missing = std::isnan(d[u]);
     const float prior = PRIOR * (variance[u] + MIN_VARIANCE);
     weight[u] = missing ? 0.0F : gradient[u] * gradient[u] + prior;
@@ -104,78 +125,91 @@ void lineariseRow(const Comparison& c, int v, State& s) {
   }
 }
 
-/** \brief Sums of a row of windows, one array per sum so that compilers see vectors. */
-struct Sums {
-  explicit Sums(int width) {
-    for (auto& sum : sums)
-      sum.assign(static_cast<std::size_t>(width), 0.0F);
-  }
-  /** 1, u, v, uu, uv, vv of the weights; 1, u, v of the wanted change */
-  std::array<std::vector<float>, 9> sums;
-};
+/** \brief Over the windows of pixels side by side: 1, u, v, uu, uv, vv of the weights;
+ * 1, u, v of the wanted change. Sums of several windows at once, so that compilers make
+ * vectors of them. */
+using Sums = float[9][BLOCK];
 
-void addWindowRow(const State& s, int v, int dv, Sums& sums) {
-  const int width = s.disparity.cols;
-  const auto* centre = s.disparity.ptr<float>(v);
-  const auto* slope_u = s.slope_u.ptr<float>(v);
-  const auto* slope_v = s.slope_v.ptr<float>(v);
-  const auto* disparity = s.disparity.ptr<float>(v + dv);
-  const auto* weight = s.weight.ptr<float>(v + dv);
-  const auto* moment = s.moment.ptr<float>(v + dv);
-  const auto y = static_cast<float>(dv);
-  std::array<float*, 9> out;
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = sums.sums[k].data();
-  for (int du = -HALF; du <= HALF; ++du) {
-    const auto x = static_cast<float>(du);
-    const float bell = std::exp(-0.5F * (x * x + y * y) / (WIDTH * WIDTH));
-    const int end = std::min(width, width - du);
-    for (int u = std::max(0, -du); u < end; ++u) {
-      const float off = disparity[u + du] - centre[u] - slope_u[u] * x - slope_v[u] * y;
-      // false for NaN on either side
-      const float share = std::abs(off) < GATE ? bell : 0.0F;
-      const float m = share * weight[u + du];
-      const float n = share != 0.0F ? share * moment[u + du] - m * centre[u] : 0.0F;
-      out[0][u] += m;
-      out[1][u] += m * x;
-      out[2][u] += m * y;
-      out[3][u] += m * x * x;
-      out[4][u] += m * x * y;
-      out[5][u] += m * y * y;
-      out[6][u] += n;
-      out[7][u] += n * x;
-      out[8][u] += n * y;
+void sumWindows(const State& s, int v, int u, Sums& sums) {
+  const auto* slope_u = row(s.slope_u, v) + u;
+  const auto* slope_v = row(s.slope_v, v) + u;
+  float centre[BLOCK]; // whatever where it is missing: nobody looks at those sums
+  for (int k = 0; k < BLOCK; ++k) {
+    const float d = row(s.disparity, v)[u + k];
+    centre[k] = std::isnan(d) ? 0.0F : d;
+  }
+  for (auto& sum : sums)
+    std::fill(sum, sum + BLOCK, 0.0F);
+  for (int dv = -HALF; dv <= HALF; ++dv) {
+    const auto y = static_cast<float>(dv);
+    float plane[BLOCK], m0[BLOCK] = {}, m1[BLOCK] = {}, m2[BLOCK] = {}, n0[BLOCK] = {},
+                        n1[BLOCK] = {};
+    for (int k = 0; k < BLOCK; ++k)
+      plane[k] = centre[k] + slope_v[k] * y;
+    for (int du = -HALF; du <= HALF; ++du) {
+      const auto x = static_cast<float>(du);
+      const auto* disparity = row(s.disparity, v + dv) + u + du;
+      const auto* weight = row(s.weight, v + dv) + u + du;
+      const auto* moment = row(s.moment, v + dv) + u + du;
+      const float bell = BELL[dv + HALF] * BELL[du + HALF];
+      for (int k = 0; k < BLOCK; ++k) {
+        const float off = disparity[k] - plane[k] - slope_u[k] * x;
+        const float share = std::abs(off) < GATE ? bell : 0.0F; // false for NaN
+        const float m = share * weight[k];
+        const float n = share * moment[k] - m * centre[k];
+        m0[k] += m;
+        m1[k] += m * x;
+        m2[k] += m * x * x;
+        n0[k] += n;
+        n1[k] += n * x;
+      }
+    }
+    for (int k = 0; k < BLOCK; ++k) {
+      sums[0][k] += m0[k];
+      sums[1][k] += m1[k];
+      sums[2][k] += m0[k] * y;
+      sums[3][k] += m2[k];
+      sums[4][k] += m1[k] * y;
+      sums[5][k] += m0[k] * y * y;
+      sums[6][k] += n0[k];
+      sums[7][k] += n1[k];
+      sums[8][k] += n0[k] * y;
     }
   }
 }
 
-/** \brief Solves each window's three equations by elimination. */
-void solveRow(const State& s, int v, const Sums& sums, State& next) {
-  const auto* d = s.disparity.ptr<float>(v);
-  for (int u = 0; u < s.disparity.cols; ++u) {
-    auto& out = next.disparity.at<float>(v, u);
-    out = NOTHING;
-    if (std::isnan(d[u]))
-      continue;
-    const auto sum = [&sums, u](std::size_t k) {
-      return double(sums.sums[k][static_cast<std::size_t>(u)]);
-    };
-    const double w = sum(0), mu = sum(1) / w, mv = sum(2) / w;
-    const double ridge = SLOPE_PRIOR * w;
-    const double uu = sum(3) - mu * sum(1) + ridge, uv = sum(4) - mu * sum(2);
-    const double vv = sum(5) - mv * sum(2) + ridge;
-    const double nu = sum(7) - mu * sum(6) + ridge * double(s.slope_u.at<float>(v, u));
-    const double nv = sum(8) - mv * sum(6) + ridge * double(s.slope_v.at<float>(v, u));
-    const double determinant = uu * vv - uv * uv;
-    const double a = (vv * nu - uv * nv) / determinant;
-    const double b = (uu * nv - uv * nu) / determinant;
-    const double change = sum(6) / w - a * mu - b * mv;
-    if (!(std::abs(change) < double(MAX_MOVE)))
-      continue;
-    out = static_cast<float>(double(d[u]) + change);
-    const auto bound = double(MAX_SLOPE);
-    next.slope_u.at<float>(v, u) = static_cast<float>(std::clamp(a, -bound, bound));
-    next.slope_v.at<float>(v, u) = static_cast<float>(std::clamp(b, -bound, bound));
+/** \brief Solves one window's three equations by elimination; the new plane. */
+void solve(const State& s, int v, int u, const Sums& sums, int k, State& next) {
+  auto& out = row(next.disparity, v)[u];
+  const float d = row(s.disparity, v)[u];
+  out = NOTHING;
+  if (std::isnan(d))
+    return;
+  const auto sum = [&sums, k](int i) { return double(sums[i][k]); };
+  const double w = sum(0), mu = sum(1) / w, mv = sum(2) / w;
+  const double ridge = SLOPE_PRIOR * w;
+  const double uu = sum(3) - mu * sum(1) + ridge, uv = sum(4) - mu * sum(2);
+  const double vv = sum(5) - mv * sum(2) + ridge;
+  const double nu = sum(7) - mu * sum(6) + ridge * double(row(s.slope_u, v)[u]);
+  const double nv = sum(8) - mv * sum(6) + ridge * double(row(s.slope_v, v)[u]);
+  const double determinant = uu * vv - uv * uv;
+  const double a = (vv * nu - uv * nv) / determinant;
+  const double b = (uu * nv - uv * nu) / determinant;
+  const double change = sum(6) / w - a * mu - b * mv;
+  if (!(std::abs(change) < double(MAX_MOVE)))
+    return;
+  const auto bound = double(MAX_SLOPE);
+  out = static_cast<float>(double(d) + change);
+  row(next.slope_u, v)[u] = static_cast<float>(std::clamp(a, -bound, bound));
+  row(next.slope_v, v)[u] = static_cast<float>(std::clamp(b, -bound, bound));
+}
+
+void moveRow(const State& s, int v, int width, State& next) {
+  Sums sums;
+  for (int u = 0; u < width; u += BLOCK) {
+    sumWindows(s, v, u, sums);
+    for (int k = 0; k < std::min(BLOCK, width - u); ++k)
+      solve(s, v, u + k, sums, k, next);
   }
 }
 
@@ -189,40 +223,27 @@ void refineDisparity(const cv::Mat& left, const cv::Mat& right, cv::Mat& dispari
   for (cv::Mat* m :
        {&comparison.difference, &comparison.gradient, &comparison.compared})
     m->create(disparity.size(), CV_32F);
-  State now, next;
-  now.disparity = disparity.clone();
-  for (cv::Mat* m : {&now.slope_u, &now.slope_v, &now.weight, &now.moment})
-    *m = cv::Mat::zeros(disparity.size(), CV_32F);
-  const cv::Range rows(0, disparity.rows);
+  State now(disparity), next(disparity);
+  const auto forEachRow = [&disparity](const auto& work) {
+    cv::parallel_for_({0, disparity.rows}, [&work](const cv::Range& rows) {
+      for (int v = rows.start; v < rows.end; ++v)
+        work(v);
+    });
+  };
   for (int pass = 0; pass < PASSES; ++pass) {
-    cv::parallel_for_(rows, [&](const cv::Range& range) {
-      for (int v = range.start; v < range.end; ++v)
-        compareRow(l, r, now.disparity, v, comparison);
-    });
+    forEachRow([&](int v) { compareRow(l, r, now, v, comparison); });
     levelOut(comparison);
-    cv::parallel_for_(rows, [&](const cv::Range& range) {
-      for (int v = range.start; v < range.end; ++v)
-        lineariseRow(comparison, v, now);
-    });
-    next.disparity = now.disparity.clone();
-    next.slope_u = now.slope_u.clone();
-    next.slope_v = now.slope_v.clone();
-    cv::parallel_for_(rows, [&](const cv::Range& range) {
-      for (int v = range.start; v < range.end; ++v) {
-        Sums sums(disparity.cols);
-        for (int dv = -HALF; dv <= HALF; ++dv)
-          if (v + dv >= 0 && v + dv < disparity.rows)
-            addWindowRow(now, v, dv, sums);
-        solveRow(now, v, sums, next);
-      }
-    });
+    forEachRow([&](int v) { lineariseRow(comparison, v, now); });
+    forEachRow([&](int v) { moveRow(now, v, disparity.cols, next); });
     std::swap(now.disparity, next.disparity);
     std::swap(now.slope_u, next.slope_u);
     std::swap(now.slope_v, next.slope_v);
   }
-  const cv::Mat moved = cv::abs(now.disparity - disparity);
-  now.disparity.setTo(NOTHING, ~(moved < MAX_MOVE));
-  disparity = now.disparity;
+  cv::Mat refined =
+      now.disparity(cv::Rect(HALF, HALF, disparity.cols, disparity.rows)).clone();
+  const cv::Mat moved = cv::abs(refined - disparity);
+  refined.setTo(NOTHING, ~(moved < MAX_MOVE));
+  disparity = refined;
 }
 
 } // namespace pcl_sq::detail
