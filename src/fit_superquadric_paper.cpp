@@ -62,7 +62,8 @@ FitSummary minimise(const PaperProblem& problem,
       break;
     }
     const PaperProblem::Normal next = problem.linearise(candidate);
-    const double slack = promised < ROUNDING * normal.cost ? ROUNDING * normal.cost : 0.0;
+    const double slack =
+        promised < ROUNDING * normal.cost ? ROUNDING * normal.cost : 0.0;
     if (!(next.cost < normal.cost + slack)) {
       damping *= 6.0;
       if (damping > MAX_DAMPING) {
