@@ -2,12 +2,17 @@
 #include "observe_parts.h"
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 namespace pcl_sq {
 
 namespace {
 
 constexpr int MIN_PIXELS = 100;
+constexpr int MIN_PIECE = 10;       ///< pixels of a further piece of a thing
+constexpr double GAIN = 0.05;       ///< of the overlap, by a further piece
+constexpr double MIN_OVERLAP = 0.3; ///< of a thing's box with the one drawn around it
 constexpr double JUMP =
     0.025; ///< of the depth: neighbours further apart are two things
 constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked for
@@ -62,14 +67,115 @@ private:
   std::size_t at_ = 0;
 };
 
-} // namespace
+/** \brief The largest region that the image border does not cut. */
+std::vector<int> largest(Regions regions) {
+  Region best;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
+    const bool better = r.cut == best.cut ? r.pixels.size() > best.pixels.size()
+                                          : best.cut || best.pixels.empty();
+    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && better)
+      best = std::move(r);
+  }
+  return best.cut ? std::vector<int>() : best.pixels;
+}
 
-bool findStandingObject(const CloudPoints& points,
-                        int width,
-                        int height,
-                        std::optional<TableModel>& table,
-                        CellMask& object) {
-  object = CellMask(width, height);
+CellRect boxOf(const std::vector<int>& pixels, int width) {
+  CellRect box;
+  int x1 = 0, y1 = 0;
+  box.x = box.y = std::numeric_limits<int>::max();
+  for (const int c : pixels) {
+    box.x = std::min(box.x, c % width);
+    box.y = std::min(box.y, c / width);
+    x1 = std::max(x1, c % width + 1);
+    y1 = std::max(y1, c / width + 1);
+  }
+  box.width = x1 - box.x;
+  box.height = y1 - box.y;
+  return box;
+}
+
+double overlap(const CellRect& a, const CellRect& b) {
+  const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const double h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  const double both = std::max(0.0, w) * std::max(0.0, h);
+  return both / (a.area() + b.area() - both);
+}
+
+struct DepthRange {
+  float near = std::numeric_limits<float>::max(), far = 0.0F;
+};
+
+DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
+  DepthRange range;
+  for (const int c : pixels) {
+    range.near = std::min(range.near, points(2, c));
+    range.far = std::max(range.far, points(2, c));
+  }
+  return range;
+}
+
+/** \brief The pixels of the thing whose box is the given one. It may be in pieces: a
+ * bowl's wall and its inside, a handle beyond its own shadow. A piece belongs to it
+ * where it lies at its depth, and the box does not cut it or it makes the whole fit the
+ * box better. */
+std::vector<int>
+fitting(Regions regions, const CloudPoints& points, const CellRect& box, int width) {
+  std::vector<Region> all;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
+    if (r.pixels.size() >= std::size_t(MIN_PIECE))
+      all.push_back(std::move(r));
+  std::vector<int> thing;
+  double fit = MIN_OVERLAP;
+  const auto merged = [&](const Region& r) {
+    std::vector<int> both = thing;
+    both.insert(both.end(), r.pixels.begin(), r.pixels.end());
+    return both;
+  };
+  for (bool first = true; true; first = false) {
+    auto best = all.end();
+    double least = fit + (first ? 0.0 : GAIN);
+    const DepthRange own = depthsOf(thing, points);
+    const float reach =
+        0.5F * (own.near + own.far) * float(box.width + box.height) / float(2 * width);
+    for (auto r = all.begin(); r != all.end(); ++r) {
+      const DepthRange depths = depthsOf(r->pixels, points);
+      const bool beside =
+          first || (depths.near < own.far + reach && depths.far > own.near - reach);
+      const double o = overlap(boxOf(merged(*r), width), box);
+      if (beside && o > least &&
+          (!first || r->pixels.size() >= std::size_t(MIN_PIXELS))) {
+        least = o;
+        best = r;
+      }
+    }
+    if (best == all.end())
+      break;
+    fit = least;
+    thing = merged(*best);
+    all.erase(best);
+  }
+  if (thing.empty())
+    return thing;
+  const DepthRange own = depthsOf(thing, points);
+  for (const Region& r : all) {
+    const CellRect at = boxOf(r.pixels, width);
+    const bool whole = at.x > box.x && at.y > box.y &&
+                       at.x + at.width < box.x + box.width &&
+                       at.y + at.height < box.y + box.height;
+    const DepthRange depths = depthsOf(r.pixels, points);
+    if (whole && depths.near >= own.near && depths.far <= own.far)
+      thing.insert(thing.end(), r.pixels.begin(), r.pixels.end());
+  }
+  return thing;
+}
+
+/** \brief Tries the largest planes as the table until something stands on one. */
+bool findOnTable(const CloudPoints& points,
+                 const CellMask& within,
+                 std::optional<TableModel>& table,
+                 CellMask& object,
+                 const std::function<std::vector<int>(const CellMask&)>& choose) {
+  object = CellMask(within.width, within.height);
   const auto total = static_cast<std::size_t>(points.cols());
   std::vector<Eigen::Vector3d> voters;
   double depth = 0.0;
@@ -88,25 +194,19 @@ bool findStandingObject(const CloudPoints& points,
       plane = *table;
     else if (!findPlane(voters, Eigen::Vector3d::Zero(), 0.008 * depth, plane))
       return false;
-    CellMask above(width, height);
+    CellMask above(within.width, within.height);
     for (std::size_t i = 0; i < total; ++i) {
       const Eigen::Vector3f p = points.col(Eigen::Index(i));
       const auto standing =
           static_cast<float>(detail::standingHeight(plane, double(p.z())));
       above.cells[i] =
+          within.cells[i] &&
           plane.normal.cast<float>().dot(p) + float(plane.offset) > standing;
     }
-    Regions regions(points, above);
-    Region best;
-    for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
-      const bool better = r.cut == best.cut ? r.pixels.size() > best.pixels.size()
-                                            : best.cut || best.pixels.empty();
-      if (r.pixels.size() >= std::size_t(MIN_PIXELS) && better)
-        best = std::move(r);
-    }
-    if (!best.pixels.empty() && !best.cut) {
+    const std::vector<int> pixels = choose(above);
+    if (!pixels.empty()) {
       table = plane;
-      for (const int c : best.pixels)
+      for (const int c : pixels)
         object.cells[std::size_t(c)] = 1;
       return true;
     }
@@ -120,5 +220,33 @@ bool findStandingObject(const CloudPoints& points,
   }
   return false;
 }
+
+} // namespace
+
+bool findStandingObject(const CloudPoints& points,
+                        int width,
+                        int height,
+                        std::optional<TableModel>& table,
+                        CellMask& object) {
+  CellMask everywhere(width, height);
+  std::fill(everywhere.cells.begin(), everywhere.cells.end(), std::uint8_t(1));
+  return findOnTable(points, everywhere, table, object, [&](const CellMask& above) {
+    return largest(Regions(points, above));
+  });
+}
+
+namespace detail {
+
+bool findThingInRegion(const Observation& o,
+                       const CellMask& region,
+                       std::optional<TableModel> table,
+                       CellMask& thing) {
+  const CellRect box = boundingRect(region);
+  return findOnTable(o.points, region, table, thing, [&](const CellMask& above) {
+    return fitting(Regions(o.points, above), o.points, box, o.width);
+  });
+}
+
+} // namespace detail
 
 } // namespace pcl_sq

@@ -144,6 +144,9 @@ bool observeBare(Observation& o, std::string& why) {
                         "and each ray from there meets them once: it is taken as the "
                         "camera's place");
   }
+  if (!viewpoint && (viewpoint = guessViewpoint(out.points)))
+    out.notes.push_back("no viewpoint is given; the points show one side of something, "
+                        "and the camera is taken to be on it");
   if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();

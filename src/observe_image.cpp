@@ -29,6 +29,18 @@ void fillHoles(CellMask& mask, const CellRect& box) {
   }
 }
 
+/** \brief Leaves of a region's pixels those of the thing that it was drawn around. */
+void keepTheThing(Observation& o) {
+  CellMask thing;
+  if (!findThingInRegion(o, o.out.pixels, o.view.table, thing))
+    return;
+  const int left_out = o.out.pixels.count() - thing.count();
+  o.out.pixels = std::move(thing);
+  if (left_out > 0)
+    o.out.notes.push_back(std::to_string(left_out) +
+                          " pixels of the region are the table's or another thing's");
+}
+
 } // namespace
 
 bool observeImage(Observation& o, std::string& why) {
@@ -51,6 +63,8 @@ bool observeImage(Observation& o, std::string& why) {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)
       out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
+    if (o.view.object_is_region)
+      keepTheThing(o);
   }
   const CellRect box = boundingRect(out.pixels);
   if (box.area() == 0) {

@@ -26,6 +26,14 @@ struct Observation {
 class DepthPatch;
 constexpr int MIN_IMAGE_POINTS = 30; ///< of an object in an image
 
+/** \brief The thing that a region was drawn around: pixels above the table that hang
+ * together and whose box is the region's. Neighbours, what stands before or behind, and
+ * the table itself are left out.
+ * \return false if no such thing is found */
+[[nodiscard]] bool findThingInRegion(const Observation& o,
+                                     const CellMask& region,
+                                     std::optional<TableModel> table,
+                                     CellMask& thing);
 /** \brief The object's points that are to be fitted, their columns and effective
  * number. \param[in] box of the object's pixels \param[in] rim pixels beside the
  * outline that are left out while enough remain */
@@ -63,5 +71,8 @@ void measure(ObservedObject& observed);
 /** \brief Whether points look as if a camera at the origin, looking along z, has seen
  * them: far enough before it, and hardly any ray meets two layers of them. */
 bool isCameraFrame(const Eigen::Matrix3Xd& points);
+/** \brief A place from which points of one side may have been seen: in the middle of
+ * the directions from which each ray meets them once, some way off. */
+std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

@@ -30,8 +30,12 @@ struct PCL_SQ_EXPORTS ViewOptions {
   std::optional<Eigen::Vector3d> viewpoint;
   std::optional<TableModel> table; ///< without it a table is looked for
   bool find_table = true;          ///< whether one is looked for
-  double mask_sigma = 0.7;         ///< noise of the mask's outline [px], (0, 20]
-  double mask_dilation = 0.35;     ///< sigma of its unknown dilation [px], [0, 20]
+  /** \brief Whether the points given as the object are all those of a box around it,
+   * the table's and other things' among them: the thing whose box it is is then looked
+   * for. */
+  bool object_is_region = false;
+  double mask_sigma = 0.7;     ///< noise of the mask's outline [px], (0, 20]
+  double mask_dilation = 0.35; ///< sigma of its unknown dilation [px], [0, 20]
   /** \brief Side of the square of pixels that share their error [px], [1, 100]. */
   double correlation = 7.0;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/object_view.h"
 
+#include "surface_cloud.h"
 #include "view_scene.h"
 
 #include <gtest/gtest.h>
@@ -151,6 +152,46 @@ TEST(ObserveObject, ArcBehindAnOccluderIsNotTheObjectsOwn) {
     EXPECT_LT(line.direction.x(), 0.3);
 }
 
+TEST(ObserveObject, ARegionMeansTheThingWhoseBoxItIs) {
+  const ViewScene alone = canScene();
+  for (const double depth : {-0.2, 0.15}) { // before the can and behind it
+    ViewScene scene = alone;
+    Superquadric neighbour = scene.object.parts[0];
+    neighbour.center += Eigen::Vector3d(0.06, 0.0, 0.0);
+    const Eigen::Vector3d away(0.0, 0.0, depth);
+    neighbour.center += away - away.dot(scene.table.normal) * scene.table.normal;
+    scene.object.parts.push_back(neighbour);
+    scene.render(0.001);
+    const CellRect box = boundingRect(alone.mask);
+    std::vector<int> region;
+    CellMask visible(scene.width, scene.height);
+    for (int y = box.y - 4; y < box.y + box.height + 4; ++y)
+      for (int x = box.x - 4; x < box.x + box.width + 4; ++x) {
+        const int c = y * scene.width + x;
+        region.push_back(c);
+        const double change = scene.points(2, c) - alone.points(2, c);
+        visible.set(x, y, alone.mask(x, y) && std::abs(change) < 0.01);
+      }
+    ASSERT_LT(visible.count(), int(region.size()) * 7 / 10);
+    ViewOptions view;
+    view.object_is_region = true;
+    ObservedObject observed;
+    std::string why;
+    ASSERT_TRUE(observeObject(
+        scene.points, scene.width, scene.height, region, view, observed, &why))
+        << why;
+    int wrong = 0, missed = 0;
+    for (std::size_t i = 0; i < visible.cells.size(); ++i) {
+      wrong += observed.pixels.cells[i] && !visible.cells[i];
+      missed += !observed.pixels.cells[i] && visible.cells[i];
+    }
+    EXPECT_LT(wrong, visible.count() / 20) << depth;
+    EXPECT_LT(missed, visible.count() / 5) << depth;
+    ASSERT_FALSE(observed.notes.empty());
+    EXPECT_NE(observed.notes[0].find("another thing"), std::string::npos);
+  }
+}
+
 TEST(ObserveObject, ViewpointInsideTheObjectIsLeftOutWithANote) {
   Random random(8);
   const Superquadric s = random.superquadric();
@@ -214,10 +255,47 @@ TEST(ObserveObject, BarePointsOfOneViewFromTheOriginGetItAsTheirViewpoint) {
   around << object, object;
   around.rightCols(count).row(2) = 2.0f * back - object.row(2).array();
   EXPECT_EQ(outline(around), OutlineSource::NONE);
-  // no camera's frame: beside z, and with the origin among the points
-  Eigen::Matrix3Xf turned = object;
-  turned.row(0) = object.row(2);
-  turned.row(2) = object.row(0);
-  EXPECT_EQ(outline(turned), OutlineSource::NONE);
-  EXPECT_EQ(outline(object.colwise() - object.col(0)), OutlineSource::NONE);
+}
+
+TEST(ObserveObject, BarePointsOfOneSideGetACameraOnThatSide) {
+  ViewScene can = canScene(), box;
+  box.addUpright({0.06, 0.04, 0.09}, 0.1, 0.1, 0.09);
+  box.render(0.001);
+  Random random(12);
+  for (const ViewScene* scene : {&can, &box}) {
+    Eigen::Matrix3Xf object(3, scene->points.cols());
+    Eigen::Index count = 0;
+    for (Eigen::Index i = 0; i < scene->points.cols(); ++i)
+      if (scene->mask.cells[std::size_t(i)])
+        object.col(count++) = scene->points.col(i);
+    object.conservativeResize(3, count);
+    for (int turn = 0; turn < 5; ++turn) { // a robot's frame, anywhere
+      const Eigen::Matrix3f rotation = random.rotation().cast<float>();
+      Eigen::Matrix3Xf moved = rotation * object;
+      moved.colwise() += Eigen::Vector3f(0.1f, -0.2f, 0.05f) - moved.rowwise().mean();
+      ObservedObject observed;
+      ASSERT_TRUE(observeObject(moved, int(count), 1, {}, {}, observed));
+      ASSERT_EQ(observed.outline, OutlineSource::POINTS);
+      EXPECT_NE(observed.notes.at(0).find("one side"), std::string::npos);
+      const Eigen::Vector3d middle = moved.rowwise().mean().cast<double>();
+      const Eigen::Vector3d truly =
+          -(rotation * object.rowwise().mean()).cast<double>().normalized();
+      const Eigen::Vector3d guessed = (observed.camera.center - middle).normalized();
+      EXPECT_GT(guessed.dot(truly), 0.75);
+    }
+  }
+}
+
+TEST(ObserveObject, PointsAllAroundGetNoCamera) {
+  Random random(13);
+  for (int i = 0; i < 20; ++i) {
+    Superquadric s = random.superquadric();
+    for (double& a : s.semi_axes)
+      a = random.uniform(0.03, 0.1);
+    const Eigen::Matrix3Xf points =
+        surfaceCloud(s, 2000, unsigned(i), 0.01 * s.semi_axes.minCoeff()).cast<float>();
+    ObservedObject observed;
+    ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
+    EXPECT_EQ(observed.outline, OutlineSource::NONE) << s.semi_axes.transpose();
+  }
 }

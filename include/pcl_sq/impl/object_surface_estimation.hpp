@@ -131,6 +131,7 @@ bool ObjectSurfaceEstimation<PointT>::observe(pcl::IndicesPtr& object) {
       input_->sensor_origin_.template head<3>().template cast<double>();
   if (!view.viewpoint && origin.norm() > 0.0)
     view.viewpoint = origin;
+  view.object_is_region = has_region_;
   // all points are no choice: the object is still to be found among them
   std::vector<int> columns;
   if (has_region_ || indices_->size() < input_->size())
