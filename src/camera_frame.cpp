@@ -119,12 +119,27 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points) {
   return lookFrom(Eigen::Vector3d::Zero(), points).once;
 }
 
-std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& points) {
-  const Eigen::Vector3d middle =
-      0.5 * (points.rowwise().minCoeff() + points.rowwise().maxCoeff());
-  const double extent = (points.rowwise().maxCoeff() - middle).norm();
+std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all) {
+  // a few strays would put the middle anywhere
+  const Eigen::Index n = all.cols(), cut = n / 50;
+  Eigen::Vector3d low, high;
+  std::vector<double> along(static_cast<std::size_t>(n));
+  for (int k = 0; k < 3; ++k) {
+    Eigen::VectorXd::Map(along.data(), n) = all.row(k);
+    std::sort(along.begin(), along.end());
+    low[k] = along[std::size_t(cut)];
+    high[k] = along[std::size_t(n - 1 - cut)];
+  }
+  const Eigen::Vector3d middle = 0.5 * (low + high);
+  const double extent = (high - middle).norm();
   if (!(extent > 0.0))
     return std::nullopt;
+  Eigen::Matrix3Xd points(3, n);
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if ((all.col(i) - middle).norm() < 2.0 * extent)
+      points.col(kept++) = all.col(i);
+  points.conservativeResize(3, kept);
   const auto some = points.leftCols(std::min(points.cols(), LOOKED_AT));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int passed = 0;

@@ -10,8 +10,9 @@ namespace pcl_sq {
 namespace {
 
 constexpr int MIN_PIXELS = 100;
-constexpr int MIN_PIECE = 10;       ///< pixels of a further piece of a thing
-constexpr double GAIN = 0.05;       ///< of the overlap, by a further piece
+constexpr int MIN_PIECE = 10;  ///< pixels of a further piece of a thing
+constexpr float REACH = 0.25F; ///< of a thing's size: between the depths of its pieces
+constexpr double GAIN = 0.05;  ///< of the overlap, by a further piece
 constexpr double MIN_OVERLAP = 0.3; ///< of a thing's box with the one drawn around it
 constexpr double JUMP =
     0.025; ///< of the depth: neighbours further apart are two things
@@ -118,8 +119,11 @@ DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
  * bowl's wall and its inside, a handle beyond its own shadow. A piece belongs to it
  * where it lies at its depth, and the box does not cut it or it makes the whole fit the
  * box better. */
-std::vector<int>
-fitting(Regions regions, const CloudPoints& points, const CellRect& box, int width) {
+std::vector<int> fitting(Regions regions,
+                         const CloudPoints& points,
+                         const CellRect& box,
+                         int width,
+                         float size) {
   std::vector<Region> all;
   for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
     if (r.pixels.size() >= std::size_t(MIN_PIECE))
@@ -135,8 +139,7 @@ fitting(Regions regions, const CloudPoints& points, const CellRect& box, int wid
     auto best = all.end();
     double least = fit + (first ? 0.0 : GAIN);
     const DepthRange own = depthsOf(thing, points);
-    const float reach =
-        0.5F * (own.near + own.far) * float(box.width + box.height) / float(2 * width);
+    const float reach = REACH * 0.5F * (own.near + own.far) * size;
     for (auto r = all.begin(); r != all.end(); ++r) {
       const DepthRange depths = depthsOf(r->pixels, points);
       const bool beside =
@@ -242,8 +245,10 @@ bool findThingInRegion(const Observation& o,
                        std::optional<TableModel> table,
                        CellMask& thing) {
   const CellRect box = boundingRect(region);
+  const auto size = static_cast<float>(
+      std::sqrt(box.area() / (o.out.camera.fx * o.out.camera.fy))); // over the depth
   return findOnTable(o.points, region, table, thing, [&](const CellMask& above) {
-    return fitting(Regions(o.points, above), o.points, box, o.width);
+    return fitting(Regions(o.points, above), o.points, box, o.width, size);
   });
 }
 
