@@ -160,6 +160,31 @@ TEST_F(StereoApp, TheBorderFilterTakesTheRimOfTheObjectAway) {
   EXPECT_GT(sizes[1], sizes[0] / 2);
 }
 
+TEST_F(StereoApp, DisparitiesAreRefinedUnlessThePaperOrTheUserSaysOtherwise) {
+  const Folder out;
+  const std::vector<std::pair<std::vector<std::string>, bool>> cases{
+      {{}, true},
+      {{"--no-refine"}, false},
+      {{"--preset", "paper"}, false},
+      {{"--preset", "paper", "--refine"}, true}};
+  std::vector<std::string> disparities;
+  for (const auto& [options, refined] : cases) {
+    std::vector<std::string> more = options;
+    more.insert(
+        more.end(),
+        {"--click", "320,240", "--disparity", out / "d.pfm", "-o", out / "m.json"});
+    const ProgramRun run = stereo(pair(), more);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(slurp(out / "m.json")
+                  .find(refined ? "\"refined\": true" : "\"refined\": false"),
+              std::string::npos);
+    disparities.push_back(slurp(out / "d.pfm"));
+  }
+  EXPECT_NE(disparities[0], disparities[1]);
+  EXPECT_EQ(disparities[1], disparities[2]);
+  EXPECT_EQ(disparities[0], disparities[3]);
+}
+
 TEST_F(StereoApp, SmoothedDisparitiesAreWrittenAndNamed) {
   const Folder out;
   for (const std::string name : {"plain", "wls"}) {
