@@ -16,6 +16,9 @@ constexpr std::size_t MIN_POINTS = 24;
 constexpr int ROUNDS = 3; ///< of assigning points and fitting again
 /** \brief Density of outliers over the Gaussian's peak, as in the fits. */
 constexpr double OUTLIER = 0.01;
+/** \brief Distance over the noise from which on a point costs the same, to the last
+ * digit. */
+constexpr double OUTLYING = 9.0;
 /** \brief Score by which a quick fit, to a sample of the points, may be worse than what
  * the full one is to beat. */
 constexpr double QUICK_SLACK = 60.0;
@@ -35,13 +38,15 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
   const ObservedObject& o = context.observed;
   // the smallest signed distance is that to the union
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(o.points.cols(), 1e300);
+  const Eigen::ArrayXd reach =
+      Eigen::ArrayXd::Constant(distances.size(), OUTLYING * context.noise);
   std::vector<TaperedSuperquadric> bodies;
   double parameters = 0.0, demand = 0.0;
   for (const Piece& piece : pieces) {
     if (!piece.fit.fit.ok())
       return 1e300;
     bodies.push_back(bodyOf(piece.fit));
-    distances = distances.cwiseMin(bodyDistances(bodies.back(), o.points));
+    keepNearer(bodies.back(), o.points, reach, distances);
     parameters += piece.fit.chosen.parameters;
     if (bodies.back().isTapered())
       demand += TAPER;

@@ -26,4 +26,11 @@ double outerArea(const std::vector<TaperedSuperquadric>& parts);
 Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
                               const Eigen::Matrix3Xd& points);
 
+/** \brief Replaces distances of points by those to a body where they are smaller.
+ * Points whose distance to it is sure to exceed their reach may keep theirs [m]. */
+void keepNearer(const TaperedSuperquadric& body,
+                const Eigen::Matrix3Xd& points,
+                const Eigen::ArrayXd& reach,
+                Eigen::VectorXd& distances);
+
 } // namespace pcl_sq::detail

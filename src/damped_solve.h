@@ -23,33 +23,37 @@ bool dampedSolve(const Eigen::Matrix<double, N, N>& jtj,
     largest = std::max(largest, jtj(i, i));
   if (!(largest > 0.0) || !std::isfinite(largest))
     return false;
-  Eigen::Matrix<double, N, N> l;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double s = frozen[i] || frozen[j] ? 0.0 : jtj(i, j);
-      if (i == j)
-        s = frozen[i] ? 1.0 : s + damping * (s + 1e-9 * largest);
-      for (int k = 0; k < j; ++k)
-        s -= l(i, k) * l(j, k);
-      if (i != j)
-        l(i, j) = s / l(j, j);
-      else if (s > 1e-14 * largest || (frozen[i] && s > 0.0))
-        l(i, i) = std::sqrt(s);
-      else
-        return false;
-    }
+  Eigen::Matrix<double, N, N> l; // lower triangle
+  for (int j = 0; j < n; ++j)
+    for (int i = j; i < n; ++i)
+      l(i, j) = frozen[i] || frozen[j] ? 0.0 : jtj(i, j);
+  for (int i = 0; i < n; ++i)
+    l(i, i) = frozen[i] ? 1.0 : l(i, i) + damping * (l(i, i) + 1e-9 * largest);
+  Eigen::Matrix<double, N, 1> inverse; // of the diagonal
+  for (int k = 0; k < n; ++k) {
+    if (!(l(k, k) > 1e-14 * largest || (frozen[k] && l(k, k) > 0.0)))
+      return false;
+    l(k, k) = std::sqrt(l(k, k));
+    inverse[k] = 1.0 / l(k, k);
+    for (int i = k + 1; i < n; ++i)
+      l(i, k) *= inverse[k];
+    // down the columns, as they lie in memory
+    for (int j = k + 1; j < n; ++j)
+      for (int i = j; i < n; ++i)
+        l(i, j) -= l(i, k) * l(j, k);
   }
-  for (int i = 0; i < n; ++i) {
-    double s = frozen[i] ? 0.0 : -jtr[i];
-    for (int k = 0; k < i; ++k)
-      s -= l(i, k) * step[k];
-    step[i] = s / l(i, i);
+  for (int i = 0; i < n; ++i)
+    step[i] = frozen[i] ? 0.0 : -jtr[i];
+  for (int k = 0; k < n; ++k) {
+    step[k] *= inverse[k];
+    for (int i = k + 1; i < n; ++i)
+      step[i] -= l(i, k) * step[k];
   }
   for (int i = n - 1; i >= 0; --i) {
     double s = step[i];
     for (int k = i + 1; k < n; ++k)
       s -= l(k, i) * step[k];
-    step[i] = s / l(i, i);
+    step[i] = s * inverse[i];
   }
   return step.head(n).allFinite();
 }

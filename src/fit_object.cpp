@@ -8,6 +8,7 @@
 #include "outline_gaps.h"
 #include "parallel_for.h"
 #include "point_set.h"
+#include "support_problem.h"
 
 #include <algorithm>
 #include <array>
@@ -304,6 +305,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     fit.bic += pieces[k].score;
     fit.model.parts.push_back(pieces[k].fit.fit.model);
     fit.tapered.parts.push_back(bodyOf(pieces[k].fit));
+    addDistances(gather(context, pieces[k].points), pieces[k].fit.fit);
     fit.parts.push_back(std::move(pieces[k].fit));
     for (const int i : pieces[k].points)
       fit.labels[std::size_t(i)] = int(k);

@@ -3,6 +3,7 @@
 
 #include "pcl_sq/line_intersection.h"
 #include "support_cost.h"
+#include "support_problem.h"
 #include "taper_line.h"
 #include "taper_row.h"
 
@@ -34,13 +35,6 @@ constexpr double PART_EPSILON = 1.0;
 constexpr double JOINT = 0.15;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
-
-Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    points.col(static_cast<Eigen::Index>(i)) = context.observed.points.col(columns[i]);
-  return points;
-}
 
 double halfDiagonal(const Eigen::Matrix3Xd& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
@@ -179,6 +173,13 @@ outlineBesideJoints(const ObservedObject& o, const Piece& piece, double size) {
 
 } // namespace
 
+Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = context.observed.points.col(columns[i]);
+  return points;
+}
+
 TaperedSuperquadric bodyOf(const SupportFit& fit) {
   TaperedSuperquadric body;
   const ShapeCandidate& chosen = fit.chosen;
@@ -309,7 +310,7 @@ void fitPiece(const PieceContext& context,
         0.5 * double(evidence.silhouette.size());
     return assessed;
   };
-  Piece best = assess(fitWithSupports(points, evidence, options), 0.0);
+  Piece best = assess(fitSupports(points, evidence, options), 0.0);
   const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
     if (!coversFreePixels(best))
@@ -318,7 +319,7 @@ void fitPiece(const PieceContext& context,
     SupportEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
     options.start = best.fit.fit.model;
-    SupportFit next = fitWithSupports(points, more, options);
+    SupportFit next = fitSupports(points, more, options);
     const double hinges = hingeCost(covered.limits, bodyOf(next));
     Piece assessed = assess(std::move(next), hinges);
     if (!(assessed.score < best.score))

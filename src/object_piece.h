@@ -36,6 +36,9 @@ struct PieceContext {
   std::vector<SupportPlane> limits; ///< half-spaces that hold every part, roughly
 };
 
+/** \brief Observed points. */
+Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns);
+
 /** \brief The body a fit has chosen, tapered or not. */
 TaperedSuperquadric bodyOf(const SupportFit& fit);
 

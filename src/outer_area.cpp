@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "all_round.h"
 
+#include "gauge.h"
 #include "pcl_sq/fit_superquadric.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq::detail {
@@ -44,11 +46,11 @@ SurfaceCells surfaceCells(const TaperedSuperquadric& body) {
     d[(face + 1) % 3] = (c % CELLS + 0.5) / CELLS;
     d[(face + 2) % 3] = (c / CELLS % CELLS + 0.5) / CELLS;
     const Eigen::Vector3d local = d.cwiseProduct(part.semi_axes);
-    const Eigen::Vector3d out = part.toWorld(local);
+    const LogGauge g = logGauge(local, part.semi_axes, part.epsilon1, part.epsilon2);
     // the cone over a cell of the cube's face has three times the volume of its part
     // of the cube; cut off at gauge one, its area vector is volume * grad G / G^3
-    const double shrink = 1.0 / part.gauge(out);
-    const double area = volume * std::pow(shrink, 3) * part.gaugeGradient(out).norm();
+    const double shrink = std::exp(-g.value);
+    const double area = volume * shrink * shrink * logGaugeGradient(g, local).norm();
     for (int octant = 0; octant < 8; ++octant) {
       const Eigen::Vector3d sign(
           octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
@@ -76,16 +78,43 @@ Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
   return distances;
 }
 
+void keepNearer(const TaperedSuperquadric& body,
+                const Eigen::Matrix3Xd& points,
+                const Eigen::ArrayXd& reach,
+                Eigen::VectorXd& distances) {
+  if (body.isTapered()) { // may stick out of the box of its shape
+    distances = distances.cwiseMin(bodyDistances(body, points));
+    return;
+  }
+  const Eigen::Matrix3d turn = body.shape.rotation.transpose();
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d local = turn * (points.col(i) - body.shape.center);
+    const Eigen::Vector3d outside =
+        (local.cwiseAbs() - body.shape.semi_axes).cwiseMax(0.0);
+    if (outside.squaredNorm() <= reach[i] * reach[i])
+      near.push_back(i);
+  }
+  Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
+  for (std::size_t k = 0; k < near.size(); ++k)
+    nearby.col(static_cast<Eigen::Index>(k)) = points.col(near[k]);
+  const Eigen::VectorXd found = surfaceDistances(body.shape, nearby);
+  for (std::size_t k = 0; k < near.size(); ++k)
+    distances[near[k]] =
+        std::min(distances[near[k]], found[static_cast<Eigen::Index>(k)]);
+}
+
 double outerArea(const std::vector<TaperedSuperquadric>& parts) {
   double sum = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const SurfaceCells cells = surfaceCells(parts[k]);
-    Eigen::ArrayXd visible = Eigen::ArrayXd::Ones(cells.areas.size());
     // a cell that another part's surface crosses counts in part
+    const Eigen::ArrayXd half = 0.5 * cells.areas.sqrt();
+    Eigen::VectorXd beyond = half;
     for (std::size_t j = 0; j < parts.size(); ++j)
       if (j != k)
-        visible = visible.min(0.5 + bodyDistances(parts[j], cells.middles).array() /
-                                        cells.areas.sqrt());
+        keepNearer(parts[j], cells.middles, half, beyond);
+    const Eigen::ArrayXd visible = 0.5 + 0.5 * beyond.array() / half;
     sum += (visible.max(0.0) * cells.areas).sum();
   }
   return sum;

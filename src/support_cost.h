@@ -19,6 +19,9 @@ inline constexpr double SHARED_AXIS = 12.0;
  * (TaperedFit::DEMAND says the same in nats). */
 inline constexpr double TAPER = 20.0;
 
+/** \brief Standard deviation of the logarithm of depth over width. */
+inline constexpr double DEPTH_SIGMA = 0.4;
+
 /** \brief Squared, weighted support residuals, in the frame of the points.
  *
  * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is
@@ -47,8 +50,6 @@ struct SupportCost {
     return silhouette.empty() && tangents.empty() && limits.empty() &&
            half_width == 0.0;
   }
-  /** \brief Adds cost and derivatives. */
-  void operator()(const Superquadric& body, NormalEquations& equations) const;
 };
 
 } // namespace pcl_sq::detail

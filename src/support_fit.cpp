@@ -4,6 +4,7 @@
 #include "parallel_for.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "support_problem.h"
+#include "surface_statistics.h"
 
 #include <algorithm>
 
@@ -82,25 +83,11 @@ void scaleEvidence(std::vector<ShapeCandidate>& candidates, double observations)
 
 } // namespace
 
-const char* toString(ShapeClass shape) {
-  switch (shape) {
-  case ShapeClass::GENERIC:
-    return "generic";
-  case ShapeClass::ROTATIONAL:
-    return "rotational";
-  case ShapeClass::BOX:
-    return "box";
-  case ShapeClass::ELLIPSOID:
-    return "ellipsoid";
-  case ShapeClass::TAPERED:
-    return "tapered";
-  }
-  return "unknown";
-}
+namespace detail {
 
-SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                           const SupportEvidence& evidence,
-                           const SupportFitOptions& options) {
+SupportFit fitSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                       const SupportEvidence& evidence,
+                       const SupportFitOptions& options) {
   SupportFit result;
   SupportProblem problem;
   if (!problem.prepare(points, evidence, options)) {
@@ -138,10 +125,41 @@ SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   fit.termination = general.front().termination;
   fit.points = problem.all().size();
   fit.sigma = result.noise;
+  return result;
+}
+
+void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit) {
   MultiSuperquadric single;
   single.parts.push_back(fit.model);
-  fit.distortion = single.distortion(points);
-  fit.rms_distance = single.rmsDistance(points);
+  const SurfaceStatistics statistics = surfaceStatistics(single, points);
+  fit.distortion = statistics.distortion;
+  fit.rms_distance = statistics.rms_distance;
+}
+
+} // namespace detail
+
+const char* toString(ShapeClass shape) {
+  switch (shape) {
+  case ShapeClass::GENERIC:
+    return "generic";
+  case ShapeClass::ROTATIONAL:
+    return "rotational";
+  case ShapeClass::BOX:
+    return "box";
+  case ShapeClass::ELLIPSOID:
+    return "ellipsoid";
+  case ShapeClass::TAPERED:
+    return "tapered";
+  }
+  return "unknown";
+}
+
+SupportFit fitWithSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                           const SupportEvidence& evidence,
+                           const SupportFitOptions& options) {
+  SupportFit result = detail::fitSupports(points, evidence, options);
+  if (result.fit.ok())
+    detail::addDistances(points, result.fit);
   return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support_problem.h"
 
+#include "support_sums.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -149,8 +151,9 @@ Trial SupportProblem::minimise(const Trial& start,
   o.space = space;
   SupportCost cost = few_planes ? few_ : cost_;
   cost.unit = unitOf(start.sigma, points);
+  const SupportSums sums(cost);
   if (!cost.empty())
-    o.contributor = std::cref(cost);
+    o.contributor = std::cref(sums);
   const LmResult r = levenbergMarquardt(points, start.model, o);
   Trial t = start;
   t.model = r.model;

@@ -67,6 +67,15 @@ private:
   double max_axis_ = 20.0;
 };
 
+/** \brief fitWithSupports() without the points' distances in its summary: most fits are
+ * only compared. */
+SupportFit fitSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                       const SupportEvidence& evidence,
+                       const SupportFitOptions& options);
+
+/** \brief The points' distances of a fit's model. */
+void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit);
+
 /** \brief Starts of the search. */
 std::vector<Superquadric> supportStarts(const SupportProblem& problem);
 

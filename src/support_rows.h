@@ -22,7 +22,6 @@ struct SupportRow {
 template <int N, typename Sums, typename Row, typename Reach>
 void addSupportCost(const SupportCost& c, const Row& row, const Reach& reach, Sums& e) {
   using Vector = Eigen::Matrix<double, N, 1>;
-  constexpr double DEPTH_SIGMA = 0.4; // of the logarithm of depth over width
   const auto add = [&e](const Vector& derivatives, double residual) {
     e.jtj.noalias() += derivatives * derivatives.transpose();
     e.jtr += derivatives * residual;

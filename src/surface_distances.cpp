@@ -12,13 +12,14 @@ namespace pcl_sq {
 namespace {
 
 constexpr Eigen::Index CHUNK = 4096; ///< points at a time: bounds the memory
-constexpr double FAR = 1e6; ///< in sizes; keeps squares within single precision
+constexpr float FAR = 1e6F; ///< in sizes; keeps squares within single precision
 
 template <typename Points>
 Eigen::VectorXd distancesTo(const Superquadric& superquadric, const Points& points) {
   detail::UnitFrame frame;
   frame.origin = superquadric.center;
   frame.scale = superquadric.semi_axes.maxCoeff();
+  const double per_unit = 1.0 / frame.scale;
   const kernels::Shape shape = detail::toShape(frame.toUnit(superquadric));
   detail::UnitPoints unit;
   unit.reserve(static_cast<std::size_t>(std::min(CHUNK, points.cols())));
@@ -28,19 +29,21 @@ Eigen::VectorXd distancesTo(const Superquadric& superquadric, const Points& poin
     const Eigen::Index count = std::min(CHUNK, points.cols() - first);
     unit.clear();
     for (Eigen::Index i = first; i < first + count; ++i) {
-      Eigen::Vector3d p = frame.toUnit(points.col(i).template cast<double>());
-      p = p.allFinite() ? p.cwiseMax(-FAR).cwiseMin(FAR)
-                        : Eigen::Vector3d::Zero().eval();
-      unit.add(
-          static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+      const Eigen::Vector3d p =
+          per_unit * (points.col(i).template cast<double>() - frame.origin);
+      const bool finite = (p[0] + p[1] + p[2]) * 0.0 == 0.0;
+      distances[i] = finite ? 0.0 : std::numeric_limits<double>::infinity();
+      const Eigen::Vector3f f =
+          (finite ? p : Eigen::Vector3d(0.0, 0.0, 0.0)).cast<float>();
+      unit.add(std::clamp(f[0], -FAR, FAR),
+               std::clamp(f[1], -FAR, FAR),
+               std::clamp(f[2], -FAR, FAR));
     }
     kernels::kernels().residuals(
         unit.view(), shape, kernels::Residual::FOOT_POINT, residuals.data());
     for (Eigen::Index i = 0; i < count; ++i)
-      distances[first + i] =
-          points.col(first + i).allFinite()
-              ? frame.scale * double(residuals[static_cast<std::size_t>(i)])
-              : std::numeric_limits<double>::infinity();
+      distances[first + i] +=
+          frame.scale * double(residuals[static_cast<std::size_t>(i)]);
   }
   return distances;
 }

@@ -67,15 +67,17 @@ inline Weight weight(Float square, Float s, Float c, Float inverse_s, Float log_
   return {e * inverse(total), (log_full - log(total)) * inverse_s};
 }
 
-/** \brief Adds the products of one block's rows, kept as sums per lane. */
-inline void addProducts(const float (&rows)[ROWS][BLOCK], float (*lanes)[LANES]) {
+/** \brief Adds the products of one block's rows, kept as sums per lane.
+ * \param[in] end of the block's points; zero up to the next whole vector */
+inline void
+addProducts(const float (&rows)[ROWS][BLOCK], std::size_t end, float (*lanes)[LANES]) {
   static_assert(ROWS % 3 == 0, "tiles of three rows");
   for (int i = 0; i < ROWS; i += 3)
     for (int j = i; j < ROWS; j += 3) {
       Float s[9];
       for (int k = 0; k < 9; ++k)
         s[k] = load(lanes[k]);
-      for (std::size_t p = 0; p < BLOCK; p += LANES) {
+      for (std::size_t p = 0; p < end; p += LANES) {
         const Float a0 = load(rows[i] + p), a1 = load(rows[i + 1] + p),
                     a2 = load(rows[i + 2] + p);
         const Float b0 = load(rows[j] + p), b1 = load(rows[j + 1] + p),
@@ -99,13 +101,13 @@ inline void addProducts(const float (&rows)[ROWS][BLOCK], float (*lanes)[LANES])
 constexpr int TILES = (ROWS / 3) * (ROWS / 3 + 1) / 2;
 
 /** \brief Moves the lanes' sums into double precision and clears them. */
-inline void flush(float (&lanes)[9 * TILES][LANES], Sums& sums) {
+inline void flush(float (&lanes)[9 * TILES][LANES], double (&products)[ROWS][ROWS]) {
   int tile = 0;
   for (int i = 0; i < ROWS; i += 3)
     for (int j = i; j < ROWS; j += 3, ++tile)
       for (int k = 0; k < 9; ++k) {
         float* s = lanes[9 * tile + k];
-        sums.products[i + k / 3][j + k % 3] += static_cast<double>(sum(load(s)));
+        products[i + k / 3][j + k % 3] += static_cast<double>(sum(load(s)));
         store(s, Float{});
       }
 }
@@ -159,16 +161,13 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
     out.cost += static_cast<double>(sum(cost));
     out.share += static_cast<double>(sum(share));
     if (DERIVATIVES) {
-      for (; p < BLOCK; p += LANES)
-        for (int i = 0; i < ROWS; ++i)
-          store(rows[i] + p, Float{});
-      addProducts(rows, lanes);
+      addProducts(rows, size, lanes);
       if (++block % FLUSH == 0)
-        flush(lanes, out);
+        flush(lanes, out.products);
     }
   }
   if (DERIVATIVES)
-    flush(lanes, out);
+    flush(lanes, out.products);
 }
 
 template <Residual KIND, bool DERIVATIVES>
@@ -228,8 +227,61 @@ void residuals(const Points& points, const Shape& shape, Residual kind, float* o
   }
 }
 
+/** \brief Rows of one block of planes: derivatives of the support function, which is
+ * the gauge of a superquadric with axes 1/a and exponents 2 - e, and the residual. */
+inline void planeBlock(const Lanes& dual,
+                       const Planes& planes,
+                       std::size_t begin,
+                       std::size_t size,
+                       float (&rows)[ROWS][BLOCK]) {
+  for (std::size_t p = 0; p < size; p += LANES) {
+    const std::size_t i = begin + p;
+    const Float x = load(planes.x + i), y = load(planes.y + i), z = load(planes.z + i);
+    const Vector u = turned(dual, x, y, z);
+    const Gauge g = gauge(dual, u);
+    const Float h = exp(g.value);
+    const Vector contact = {h * g.gradient.x, h * g.gradient.y, h * g.gradient.z};
+    const Float beyond = h + dot(u, {dual.offset[0], dual.offset[1], dual.offset[2]}) -
+                         load(planes.offset + i);
+    const Float w =
+        select(beyond > load(planes.least + i), load(planes.weight + i), Float{});
+    store(rows[0] + p, w * u.x);
+    store(rows[1] + p, w * u.y);
+    store(rows[2] + p, w * u.z);
+    store(rows[3] + p, w * (contact.y * u.z - contact.z * u.y));
+    store(rows[4] + p, w * (contact.z * u.x - contact.x * u.z));
+    store(rows[5] + p, w * (contact.x * u.y - contact.y * u.x));
+    store(rows[6] + p, w * h * g.a1);
+    store(rows[7] + p, w * h * g.a2);
+    store(rows[8] + p, w * h * g.a3);
+    store(rows[9] + p, -w * h * g.e1);
+    store(rows[10] + p, -w * h * g.e2);
+    store(rows[11] + p, w * beyond);
+  }
+}
+
+void planeSums(const Planes& planes, const Shape& shape, PlaneSums& out) {
+  alignas(64) float rows[ROWS][BLOCK];
+  alignas(64) float lanes[9 * TILES][LANES] = {};
+  const Lanes dual = spreadDual(shape);
+  Float shared[ROWS] = {};
+  __builtin_memset(&out, 0, sizeof(out));
+  for (std::size_t begin = 0; begin < planes.count; begin += BLOCK) {
+    const std::size_t rest = planes.count - begin;
+    const std::size_t size = rest < BLOCK ? rest : BLOCK;
+    planeBlock(dual, planes, begin, size, rows);
+    for (std::size_t p = 0; p < size; p += LANES)
+      for (int i = 0; i < ROWS; ++i)
+        shared[i] += load(planes.shared + begin + p) * load(rows[i] + p);
+    addProducts(rows, size, lanes);
+  }
+  flush(lanes, out.products);
+  for (int i = 0; i < ROWS; ++i)
+    out.shared[i] = static_cast<double>(sum(shared[i]));
+}
+
 constexpr Kernels table(const char* name) {
-  return {name, &accumulate<true>, &residuals, &accumulate<false>};
+  return {name, &accumulate<true>, &residuals, &accumulate<false>, &planeSums};
 }
 
 } // namespace

@@ -41,11 +41,26 @@ inline Lanes spread(const Shape& s) {
   return l;
 }
 
+/** \brief The shape whose gauge is the support function of \a s, in its frame. */
+inline Lanes spreadDual(const Shape& s) {
+  constexpr float SMALLEST = 1e-6F; // instead of an exponent of zero
+  Shape dual = s;
+  for (float& inverse_axis : dual.inverse_axis)
+    inverse_axis = 1.0F / inverse_axis;
+  dual.epsilon1 = 2.0F - s.epsilon1 > SMALLEST ? 2.0F - s.epsilon1 : SMALLEST;
+  dual.epsilon2 = 2.0F - s.epsilon2 > SMALLEST ? 2.0F - s.epsilon2 : SMALLEST;
+  return spread(dual);
+}
+
+inline Vector turned(const Lanes& l, Float x, Float y, Float z) {
+  return {l.axes[0][0] * x + l.axes[0][1] * y + l.axes[0][2] * z,
+          l.axes[1][0] * x + l.axes[1][1] * y + l.axes[1][2] * z,
+          l.axes[2][0] * x + l.axes[2][1] * y + l.axes[2][2] * z};
+}
+
 inline Vector local(const Lanes& l, const Points& p, std::size_t i) {
-  const Float x = load(p.x + i), y = load(p.y + i), z = load(p.z + i);
-  return {l.axes[0][0] * x + l.axes[0][1] * y + l.axes[0][2] * z - l.offset[0],
-          l.axes[1][0] * x + l.axes[1][1] * y + l.axes[1][2] * z - l.offset[1],
-          l.axes[2][0] * x + l.axes[2][1] * y + l.axes[2][2] * z - l.offset[2]};
+  const Vector v = turned(l, load(p.x + i), load(p.y + i), load(p.z + i));
+  return {v.x - l.offset[0], v.y - l.offset[1], v.z - l.offset[2]};
 }
 
 struct Norm {

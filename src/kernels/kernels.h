@@ -58,6 +58,27 @@ struct Sums {
   double share;                ///< sum p: the expected number of inliers
 };
 
+/** \brief Planes normal . p = offset, in the frame of the points.
+ *
+ * A plane's residual is weight (h(normal) + normal . center - offset), with h the
+ * support function; it counts only above \a least. */
+struct Planes {
+  const float* x; ///< of the normal
+  const float* y;
+  const float* z;
+  const float* offset;
+  const float* weight; ///< 0 beyond the last plane
+  const float* least;  ///< 0 for a half-space, far below for a tangent plane
+  const float* shared; ///< share in a common error, see PlaneSums::shared
+  std::size_t count;
+};
+
+/** \brief Sums over planes; j = (Jacobian, r) as in Sums. */
+struct PlaneSums {
+  double products[ROWS][ROWS]; ///< sum j j^T; upper triangle
+  double shared[ROWS];         ///< sum of j times the plane's share
+};
+
 /** \brief One implementation of the loops. */
 struct Kernels {
   const char* name;
@@ -66,6 +87,7 @@ struct Kernels {
   void (*residuals)(const Points&, const Shape&, Residual, float* out);
   /** \brief Cost and share only. */
   void (*evaluate)(const Points&, const Shape&, Residual, const Mixture&, Sums&);
+  void (*planes)(const Planes&, const Shape&, PlaneSums&);
 };
 
 enum class Isa { PORTABLE, SSE2, AVX2, AVX512 };

@@ -127,11 +127,25 @@ inline Float inverse(Float x) {
   return 1.0F / x;
 #endif
 }
+template <int COUNT>
+struct Vec {
+  typedef float Type __attribute__((vector_size(4 * COUNT)));
+};
+/** \brief Adds half to half: one lane after the other would wait for each addition. */
+template <int COUNT>
+inline float sumOf(typename Vec<COUNT>::Type x) {
+  if constexpr (COUNT == 2) {
+    return x[0] + x[1];
+  } else {
+    typename Vec<COUNT / 2>::Type low, high;
+    __builtin_memcpy(&low, &x, sizeof(low));
+    __builtin_memcpy(
+        &high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
+    return sumOf<COUNT / 2>(low + high);
+  }
+}
 inline float sum(Float x) {
-  float s = 0.0F;
-  for (int i = 0; i < LANES; ++i)
-    s += x[i];
-  return s;
+  return sumOf<LANES>(x);
 }
 inline Float laneIndex() {
   Float v{};

@@ -3,7 +3,8 @@
 
 #include "levenberg_marquardt.h"
 #include "pcl_sq/triangle_mesh.h"
-#include "support_cost.h"
+#include "support_rows.h"
+#include "support_sums.h"
 #include "view_scene.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,22 @@ std::vector<ContourPoint> projected(const Superquadric& s,
     contour.push_back(point);
   }
   return contour;
+}
+
+/** \brief A cost as it is defined, plane by plane. */
+void addExactly(const detail::SupportCost& cost,
+                const Superquadric& s,
+                detail::NormalEquations& e) {
+  const auto row = [&](const Eigen::Vector3d& normal) {
+    detail::SupportRow<11> r;
+    r.derivatives = s.supportJacobian(normal, r.reach);
+    r.reach += normal.dot(s.center);
+    return r;
+  };
+  const auto reach = [&](const Eigen::Vector3d& normal) {
+    return normal.dot(s.center) + s.support(normal);
+  };
+  detail::addSupportCost<11>(cost, row, reach, e);
 }
 
 Superquadric inFront(Random& random) {
@@ -194,7 +211,7 @@ TEST(SupportCost, MarginalDilationIsTheCostAtTheBestDilation) {
     cost.silhouette.push_back(plane);
   }
   detail::NormalEquations e;
-  cost(s, e);
+  addExactly(cost, s, e);
   double best = 1e300;
   for (double b = -0.01; b < 0.01; b += 1e-6) {
     double c = b * b / (cost.dilation_sigma * cost.dilation_sigma);
@@ -223,15 +240,57 @@ TEST(SupportCost, GradientAgreesWithCentralDifferences) {
   cost.tangents = {plane(0.01)};
   cost.limits = {plane(-0.02), plane(0.02)}; // the second is not violated
   detail::NormalEquations e;
-  cost(s, e);
+  addExactly(cost, s, e);
   for (int k = 0; k < 11; ++k) {
     detail::Vector11 step = detail::Vector11::Zero();
     step[k] = 1e-6;
     detail::NormalEquations high, low;
-    cost(detail::moved(s, step, {}), high);
-    cost(detail::moved(s, -step, {}), low);
+    addExactly(cost, detail::moved(s, step, {}), high);
+    addExactly(cost, detail::moved(s, -step, {}), low);
     const double slope = (high.cost - low.cost) / 2e-6;
     EXPECT_NEAR(2.0 * e.jtr[k], slope, 1e-3 * (1.0 + std::abs(slope))) << k;
+  }
+}
+
+TEST(SupportSums, AreThoseOfTheCostPlaneByPlane) {
+  Random random(8);
+  for (int trial = 0; trial < 40; ++trial) {
+    Superquadric s = random.superquadric();
+    s.center = 0.3 * random.direction();
+    s.semi_axes = {
+        random.uniform(0.3, 2), random.uniform(0.3, 2), random.uniform(0.3, 2)};
+    detail::SupportCost cost;
+    cost.unit = 0.02;
+    cost.dilation_sigma = trial % 3 == 0 ? 0.0 : 0.01;
+    const auto plane = [&] {
+      SupportPlane p;
+      p.normal = random.direction();
+      p.offset = p.normal.dot(s.center) + s.support(p.normal) + random.normal(0.05);
+      p.sigma = random.uniform(0.01, 0.03);
+      return p;
+    };
+    // none, a few, more than one block of the kernels
+    for (int i = 0; i < trial % 4 * 60; ++i)
+      cost.silhouette.push_back(plane());
+    for (int i = 0; i < 30; ++i) {
+      cost.tangents.push_back(plane());
+      cost.limits.push_back(plane());
+    }
+    cost.view = random.direction();
+    cost.half_width = random.uniform(0.3, 2);
+    detail::NormalEquations expected, e;
+    addExactly(cost, s, expected);
+    detail::SupportSums sums(cost);
+    sums(s, e);
+    EXPECT_NEAR(e.cost, expected.cost, 1e-4 * expected.cost);
+    for (int i = 0; i < 11; ++i) {
+      const double scale = std::sqrt(expected.jtj(i, i));
+      EXPECT_NEAR(e.jtr[i], expected.jtr[i], 1e-4 * scale * std::sqrt(expected.cost));
+      for (int j = 0; j < 11; ++j)
+        EXPECT_NEAR(e.jtj(i, j),
+                    expected.jtj(i, j),
+                    1e-4 * scale * std::sqrt(expected.jtj(j, j)));
+    }
   }
 }
 
