@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "curved_patch.h"
 #include "object_piece.h"
-#include "order_statistic.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -16,45 +16,6 @@ constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a pl
 constexpr std::size_t CURVED = 32; ///< neighbours through which a curved surface goes
 constexpr double SHARING = 5.0;    ///< points of one error for which the fewest suffice
 
-/** \brief Nearest neighbours among every stride-th point. */
-class Neighbourhood {
-public:
-  Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride)
-      : points_(points), stride_(stride) {}
-
-  /** \brief Columns of the \a count points nearest to the i-th one. */
-  const std::vector<Eigen::Index>& of(Eigen::Index i, std::size_t count) {
-    distances_.clear();
-    for (Eigen::Index k = 0; k < points_.cols(); k += stride_)
-      distances_.push_back((points_.col(k) - points_.col(i)).squaredNorm());
-    values_ = distances_;
-    spare_.resize(values_.size());
-    const double farthest =
-        orderStatistic(values_.data(), spare_.data(), values_.size(), count - 1);
-    near_.clear();
-    const auto take = [&](const auto& wanted) {
-      for (std::size_t k = 0; k < distances_.size() && near_.size() < count; ++k)
-        if (wanted(distances_[k]))
-          near_.push_back(Eigen::Index(k) * stride_);
-    };
-    take([farthest](double d) { return d < farthest; });
-    take([farthest](double d) { return d == farthest; });
-    return near_;
-  }
-
-private:
-  const Eigen::Matrix3Xd& points_;
-  Eigen::Index stride_;
-  std::vector<double> distances_, values_, spare_;
-  std::vector<Eigen::Index> near_;
-};
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 } // namespace
 
 double curvedNoise(const Eigen::Matrix3Xd& points) {
@@ -67,25 +28,9 @@ double curvedNoise(const Eigen::Matrix3Xd& points) {
   Neighbourhood neighbourhood(points, stride);
   for (Eigen::Index i = 0; i < n; i += step) {
     const std::vector<Eigen::Index>& near = neighbourhood.of(i, CURVED);
-    Eigen::Matrix3Xd local(3, Eigen::Index(CURVED));
-    for (std::size_t k = 0; k < CURVED; ++k)
-      local.col(Eigen::Index(k)) = points.col(near[k]);
-    local.colwise() -= local.rowwise().mean().eval();
-    // across the smallest spread, the surface is a quadratic function
-    local = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(local * local.transpose())
-                .eigenvectors()
-                .transpose() *
-            local;
-    if (!(local.norm() > 0.0)) // one place many times
-      continue;
-    const auto u = local.row(1).transpose().array() / local.norm();
-    const auto v = local.row(2).transpose().array() / local.norm();
-    Eigen::Matrix<double, Eigen::Dynamic, 6> terms(local.cols(), 6);
-    terms << Eigen::VectorXd::Ones(local.cols()), u, v, u * u, u * v, v * v;
-    const Eigen::VectorXd height = local.row(0).transpose();
-    const Eigen::VectorXd residuals =
-        height - terms * terms.colPivHouseholderQr().solve(height);
-    deviations.push_back(residuals.norm() / std::sqrt(double(CURVED - 6)));
+    const CurvedPatch patch = curvedPatch(points, near);
+    if (patch.residuals.size() > 0)
+      deviations.push_back(patch.scatter());
   }
   return deviations.empty() ? 0.0 : median(std::move(deviations));
 }

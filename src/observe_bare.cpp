@@ -156,6 +156,7 @@ bool observeBare(Observation& o, std::string& why) {
         "the viewpoint lies inside the object; its outline is not used");
     return true;
   }
+  out.effective_points /= sharingOfErrors(out.points);
   out.camera = PinholeCamera::lookingAt(*viewpoint, mean, 500.0);
   out.depth = distance;
   std::vector<Eigen::Vector2d> pixels;

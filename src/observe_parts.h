@@ -71,6 +71,9 @@ void measure(ObservedObject& observed);
 /** \brief Whether points look as if a camera at the origin, looking along z, has seen
  * them: far enough before it, and hardly any ray meets two layers of them. */
 bool isCameraFrame(const Eigen::Matrix3Xd& points);
+/** \brief How many points share one error: 1 where neighbours err independently. */
+double sharingOfErrors(const Eigen::Matrix3Xd& points);
+
 /** \brief A place from which points of one side may have been seen: in the middle of
  * the directions from which each ray meets them once, some way off. */
 std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& points);

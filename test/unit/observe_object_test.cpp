@@ -299,3 +299,38 @@ TEST(ObserveObject, PointsAllAroundGetNoCamera) {
     EXPECT_EQ(observed.outline, OutlineSource::NONE) << s.semi_axes.transpose();
   }
 }
+
+TEST(ObserveObject, BarePointsThatErrTogetherCountForFewer) {
+  ViewScene scene;
+  scene.addUpright({0.05, 0.05, 0.08}, 0.2, 1.0, 0.08);
+  scene.render();
+  Random random(14);
+  std::vector<Eigen::Vector2d> phases; // waves over the image, a few pixels long
+  for (int k = 0; k < 40; ++k)
+    phases.push_back(0.6 * Eigen::Vector2d(random.normal(), random.normal()));
+  const auto effective = [&](bool together) {
+    std::vector<Eigen::Vector3f> object;
+    for (int c = 0; c < scene.points.cols(); ++c) {
+      if (!scene.mask.cells[std::size_t(c)])
+        continue;
+      const Eigen::Vector2d pixel(c % scene.width, c / scene.width);
+      double error = random.normal(1.0);
+      if (together) {
+        error = 0.0;
+        for (std::size_t k = 0; k < phases.size(); ++k)
+          error += std::sin(phases[k].dot(pixel) + double(k)) / std::sqrt(20.0);
+      }
+      const Eigen::Vector3d ray = scene.camera.ray(pixel);
+      object.push_back(scene.points.col(c) + (0.001 * error * ray).cast<float>());
+    }
+    Eigen::Matrix3Xf points(3, Eigen::Index(object.size()));
+    for (std::size_t i = 0; i < object.size(); ++i)
+      points.col(Eigen::Index(i)) = object[i];
+    ObservedObject observed;
+    EXPECT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
+    EXPECT_EQ(observed.outline, OutlineSource::POINTS);
+    return observed.effective_points / double(observed.points.cols());
+  };
+  EXPECT_EQ(effective(false), 1.0);
+  EXPECT_LT(effective(true), 0.5);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curved_patch.h"
+
+#include "order_statistic.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t count) {
+  distances_.clear();
+  for (Eigen::Index k = 0; k < points_.cols(); k += stride_)
+    distances_.push_back((points_.col(k) - points_.col(i)).squaredNorm());
+  values_ = distances_;
+  spare_.resize(values_.size());
+  const double farthest =
+      orderStatistic(values_.data(), spare_.data(), values_.size(), count - 1);
+  near_.clear();
+  const auto take = [&](const auto& wanted) {
+    for (std::size_t k = 0; k < distances_.size() && near_.size() < count; ++k)
+      if (wanted(distances_[k]))
+        near_.push_back(Eigen::Index(k) * stride_);
+  };
+  take([farthest](double d) { return d < farthest; });
+  take([farthest](double d) { return d == farthest; });
+  return near_;
+}
+
+double CurvedPatch::scatter() const {
+  return residuals.norm() / std::sqrt(double(residuals.size() - TERMS));
+}
+
+CurvedPatch curvedPatch(const Eigen::Matrix3Xd& points,
+                        const std::vector<Eigen::Index>& columns) {
+  CurvedPatch patch;
+  Eigen::Matrix3Xd local(3, Eigen::Index(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    local.col(Eigen::Index(k)) = points.col(columns[k]);
+  local.colwise() -= local.rowwise().mean().eval();
+  // across the smallest spread, the surface is a quadratic function
+  local = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(local * local.transpose())
+              .eigenvectors()
+              .transpose() *
+          local;
+  const double size = local.norm();
+  if (!(size > 0.0))
+    return patch;
+  patch.across = local.bottomRows<2>();
+  const auto u = patch.across.row(0).transpose().array() / size;
+  const auto v = patch.across.row(1).transpose().array() / size;
+  Eigen::Matrix<double, Eigen::Dynamic, CurvedPatch::TERMS> terms(local.cols(),
+                                                                  CurvedPatch::TERMS);
+  terms << Eigen::VectorXd::Ones(local.cols()), u, v, u * u, u * v, v * v;
+  const Eigen::VectorXd height = local.row(0).transpose();
+  patch.residuals = height - terms * terms.colPivHouseholderQr().solve(height);
+  return patch;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+} // namespace pcl_sq::detail
