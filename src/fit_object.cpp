@@ -274,13 +274,17 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                 ? localNoise(observed.points, observed.effective_points)
                 : curvedNoise(observed.points);
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
-  std::vector<Piece> pieces(1, wholePiece(context));
-  fitPiece(context, pieces[0], Effort::FULL);
-  if (!pieces[0].fit.fit.ok())
-    return fit;
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;
-  if (wanted > 1 && (noise > 0.0 || options.parts > 0)) {
+  const bool split = wanted > 1 && (noise > 0.0 || options.parts > 0);
+  std::vector<Piece> pieces(1, wholePiece(context));
+  // where parts are compared, the first fit but tells the noise; bare points of one
+  // view leave the depth so open that the families must all start from there
+  const bool bare_view = observed.hasCamera() && observed.pixels.cells.empty();
+  fitPiece(context, pieces[0], split && !bare_view ? Effort::START : Effort::FULL);
+  if (!pieces[0].fit.fit.ok())
+    return fit;
+  if (split) {
     context.noise =
         Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
                         MODEL_ERROR * observed.extent,

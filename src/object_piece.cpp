@@ -279,13 +279,13 @@ void fitPiece(const PieceContext& context,
   if (!context.precision.empty())
     for (const int i : piece.points)
       options.precision.push_back(context.precision[std::size_t(i)]);
-  options.all_points = !o.hasCamera() && effort != Effort::QUICK;
+  const bool general = effort == Effort::QUICK || effort == Effort::START;
+  options.choose_shape = options.choose_shape && !general;
+  options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;
-  if (effort == Effort::QUICK) {
-    options.choose_shape = false;
+  if (effort == Effort::QUICK)
     options.starts = QUICK_STARTS;
-  }
   if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
     options.start = piece.fit.fit.model;
   SupportEvidence evidence =

@@ -61,6 +61,7 @@ std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 
 enum class Effort {
   QUICK, ///< general shape, few starts
+  START, ///< general shape, all starts: where AGAIN goes on from
   FULL,  ///< all shapes, all starts
   AGAIN, ///< all shapes from the last fit
   FINAL  ///< the same, and held off the free pixels

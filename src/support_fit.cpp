@@ -44,7 +44,7 @@ std::vector<Trial> search(const SupportProblem& p, int& iterations) {
     t = p.minimise(t, p.coarse(), kernels::Residual::RADIAL, 6, {}, true);
   });
   std::sort(trials.begin(), trials.end(), cheaper);
-  const bool quick = !p.options().choose_shape;
+  const bool quick = !p.options().choose_shape && p.options().starts > 0;
   const std::size_t kept = quick ? 1 : KEPT;
   if (trials.size() > kept)
     trials.resize(kept);
