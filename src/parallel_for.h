@@ -10,10 +10,13 @@ namespace pcl_sq::detail {
 
 /** \brief Calls work(i) for i in [0, count), in any order and by several threads at
  * once; inside of another parallel loop by one. An exception is handed on after all are
- * done. \param[in] threads 0: one per core */
+ * done. \param[in] threads 0: one per core, but fewer on a busy machine: a thread that
+ * waits for its turn there holds up the others for longer than it would have helped */
 template <typename Work>
 void parallelFor(std::size_t count, unsigned int threads, const Work& work) {
   const int n_threads = threads > 0 ? int(threads) : omp_get_num_procs();
+  const int dynamic = omp_get_dynamic();
+  omp_set_dynamic(threads == 0 ? 1 : dynamic);
   std::exception_ptr error; // must not leave the parallel region by itself
 #pragma omp parallel for schedule(dynamic) num_threads(n_threads) if (count > 1)
   for (std::size_t i = 0; i < count; ++i) {
@@ -24,6 +27,7 @@ void parallelFor(std::size_t count, unsigned int threads, const Work& work) {
       error = std::current_exception();
     }
   }
+  omp_set_dynamic(dynamic);
   if (error)
     std::rethrow_exception(error);
 }
