@@ -11,19 +11,38 @@
 
 namespace pcl_sq::detail {
 
-const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t count) {
-  distances_.clear();
+namespace {
+
+/** \brief The next point's neighbours are about as far as the last one's: of the
+ * squared distances over those. */
+constexpr double WIDER = 2.0;
+
+} // namespace
+
+void Neighbourhood::collect(Eigen::Index i, double near_enough) {
+  found_.clear();
+  const Eigen::Vector3d p = points_.col(i);
   for (Eigen::Index k = 0; k < points_.cols(); k += stride_)
-    distances_.push_back((points_.col(k) - points_.col(i)).squaredNorm());
-  values_ = distances_;
+    if (const double d = (points_.col(k) - p).squaredNorm(); d < near_enough)
+      found_.push_back({d, k});
+}
+
+const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t count) {
+  collect(i, near_enough_);
+  if (found_.size() < count)
+    collect(i, std::numeric_limits<double>::infinity());
+  values_.clear();
+  for (const Found& f : found_)
+    values_.push_back(f.distance);
   spare_.resize(values_.size());
   const double farthest =
       orderStatistic(values_.data(), spare_.data(), values_.size(), count - 1);
+  near_enough_ = WIDER * farthest;
   near_.clear();
   const auto take = [&](const auto& wanted) {
-    for (std::size_t k = 0; k < distances_.size() && near_.size() < count; ++k)
-      if (wanted(distances_[k]))
-        near_.push_back(Eigen::Index(k) * stride_);
+    for (std::size_t k = 0; k < found_.size() && near_.size() < count; ++k)
+      if (wanted(found_[k].distance))
+        near_.push_back(found_[k].column);
   };
   take([farthest](double d) { return d < farthest; });
   take([farthest](double d) { return d == farthest; });

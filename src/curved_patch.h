@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 namespace pcl_sq::detail {
@@ -18,9 +19,18 @@ public:
   const std::vector<Eigen::Index>& of(Eigen::Index i, std::size_t count);
 
 private:
+  struct Found {
+    double distance; ///< squared
+    Eigen::Index column;
+  };
+  /** \brief Points nearer to the i-th one than a squared distance. */
+  void collect(Eigen::Index i, double near_enough);
+
   const Eigen::Matrix3Xd& points_;
   Eigen::Index stride_;
-  std::vector<double> distances_, values_, spare_;
+  double near_enough_ = std::numeric_limits<double>::infinity();
+  std::vector<Found> found_;
+  std::vector<double> values_, spare_;
   std::vector<Eigen::Index> near_;
 };
 

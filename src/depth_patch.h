@@ -16,7 +16,7 @@ namespace pcl_sq::detail {
  * MARGIN around a pixel of the object always lies within. */
 class DepthPatch {
 public:
-  static constexpr int MARGIN = 6; ///< beyond the object's box [px]
+  static constexpr int MARGIN = 7; ///< beyond the box: the largest reach [px]
 
   /** \param[in] box of the object's pixels, which are those of \a o.out */
   DepthPatch(const Observation& o, const CellRect& box);
@@ -34,6 +34,15 @@ public:
   /** \brief The same for the finite points that markOthers() has marked. */
   std::size_t othersAround(int x, int y, int reach, double* depths) const {
     return around(other_, x, y, reach, depths);
+  }
+  /** \brief Calls use(dx, dy, depth) with the object's finite points around a pixel of
+   * its box, every step-th of a window. \param[in] reach at most MARGIN */
+  template <typename Use>
+  void forEachOwn(int x, int y, int reach, int step, const Use& use) const {
+    for (int dy = -reach; dy <= reach; dy += step)
+      for (int dx = -reach; dx <= reach; dx += step)
+        if (const std::size_t i = indexOf(x + dx, y + dy); own_[i])
+          use(dx, dy, depth_[i]);
   }
   /** \brief Depth of a pixel whose point is finite [m]. */
   double depth(int x, int y) const { return depth_[indexOf(x, y)]; }

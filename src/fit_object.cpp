@@ -23,6 +23,9 @@ constexpr double MIN_GAIN = 10.0; ///< of the score, for one more part
 constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs no cut
 constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
 constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
+/** \brief Score of quick fits from which on a cut is not worth full ones: over what it
+ * is to beat, and the factor over the best cut's. */
+constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief How far the best cut is moved, over half the piece's size. */
@@ -43,6 +46,10 @@ struct Split {
   Piece first, second;
   double score = 1e300;
 };
+
+bool isBareView(const ObservedObject& observed) {
+  return observed.hasCamera() && observed.pixels.cells.empty();
+}
 
 double observations(const PieceContext& context, const Piece& piece) {
   return context.observed.effective_points * double(piece.points.size()) /
@@ -101,11 +108,28 @@ void addShifted(const PieceContext& context,
     splits.push_back(std::move(next));
 }
 
+/** \brief Leaves the cuts that are worth full fits.
+ * \param[in] limit what the score is to beat */
+void keepPromising(const PieceContext& context,
+                   std::vector<Split>& splits,
+                   double limit) {
+  std::sort(splits.begin(), splits.end(), betterSplit);
+  if (context.options.fit.taper)
+    limit = 1e299; // quick fits know no taper
+  else if (!splits.empty())
+    limit = std::min(limit + QUICK_SLACK,
+                     QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
+  while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
+    splits.pop_back();
+}
+
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
- * \param[in] axis another part whose axis the two may share, or nullptr */
+ * \param[in] axis another part whose axis the two may share, or nullptr
+ * \param[in] limit what the score is to beat */
 Split bestSplit(const PieceContext& context,
                 const Piece& piece,
-                const Superquadric* axis) {
+                const Superquadric* axis,
+                double limit) {
   const std::vector<Cut> cuts = proposeCuts(context, piece);
   std::vector<Split> splits(cuts.size());
   const unsigned int threads = context.options.fit.threads;
@@ -113,12 +137,7 @@ Split bestSplit(const PieceContext& context,
     splits[i] = split(context, piece, cuts[i]);
   });
   addShifted(context, piece, splits);
-  splits.erase(std::remove_if(splits.begin(),
-                              splits.end(),
-                              [](const Split& s) { return s.score > 1e299; }),
-               splits.end());
-  std::sort(splits.begin(), splits.end(), betterSplit);
-  splits.resize(std::min(splits.size(), TRIED));
+  keepPromising(context, splits, limit);
   parallelFor(splits.size(), threads, [&](std::size_t i) {
     fitInFull(context, splits[i], axis);
   });
@@ -205,7 +224,8 @@ void splitView(const PieceContext& context,
       Split s =
           bestSplit(context,
                     piece,
-                    main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr);
+                    main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
+                    exactly ? 1e299 : piece.score);
       if (piece.score - s.score > gain) {
         gain = piece.score - s.score;
         best = std::move(s);
@@ -280,8 +300,9 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   std::vector<Piece> pieces(1, wholePiece(context));
   // where parts are compared, the first fit but tells the noise; bare points of one
   // view leave the depth so open that the families must all start from there
-  const bool bare_view = observed.hasCamera() && observed.pixels.cells.empty();
-  fitPiece(context, pieces[0], split && !bare_view ? Effort::START : Effort::FULL);
+  fitPiece(context,
+           pieces[0],
+           split && !isBareView(observed) ? Effort::START : Effort::FULL);
   if (!pieces[0].fit.fit.ok())
     return fit;
   if (split) {

@@ -142,6 +142,8 @@ LmResult levenbergMarquardt(const UnitPoints& points,
   Vector11 jtr, step;
   bool frozen[11] = {};
   while (r.iterations < o.max_iterations) {
+    if (r.iterations >= o.hopeless.after && r.equations.cost > o.hopeless.cost)
+      break;
     if (fresh) {
       if (all) {
         jtj = r.equations.jtj;

@@ -7,6 +7,7 @@
 #include "unit_frame.h"
 
 #include <functional>
+#include <limits>
 
 namespace pcl_sq::detail {
 
@@ -45,6 +46,13 @@ struct ParameterSpace {
   static ParameterSpace rotational();
 };
 
+/** \brief A fit that is not worth its time: what only the best of several is wanted
+ * for may end where it is still far from another's cost after a few iterations. */
+struct Hopeless {
+  int after = 0; ///< iterations
+  double cost = std::numeric_limits<double>::infinity();
+};
+
 struct LmOptions {
   kernels::Residual residual = kernels::Residual::RADIAL;
   double sigma = 0.0;   ///< of the mixture's Gaussian; 0: plain least squares
@@ -56,6 +64,7 @@ struct LmOptions {
   double min_epsilon = Superquadric::MIN_EPSILON;
   double max_epsilon = Superquadric::MAX_EPSILON;
   double min_axis = 1e-5, max_axis = 1e3; ///< in the frame of the points
+  Hopeless hopeless;
   ParameterSpace space;
   Contributor contributor; ///< may be empty
 };

@@ -134,6 +134,23 @@ double hingeCost(const std::vector<SupportPlane>& limits,
   return cost;
 }
 
+/** \brief Sine of the angle of a pixel's ray above a plane through the camera's centre:
+ * the ray itself would have to be turned into the world first. */
+class AngleAbove {
+public:
+  AngleAbove(const PinholeCamera& camera, const Eigen::Vector3d& normal)
+      : normal_(camera.rotation.transpose() * normal), center_(camera.cx, camera.cy),
+        per_pixel_(1.0 / camera.fx, 1.0 / camera.fy) {}
+  double operator()(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector2d d = (pixel - center_).cwiseProduct(per_pixel_);
+    return (normal_.head<2>().dot(d) + normal_.z()) / std::sqrt(d.squaredNorm() + 1.0);
+  }
+
+private:
+  Eigen::Vector3d normal_;
+  Eigen::Vector2d center_, per_pixel_;
+};
+
 /** \brief Width of the strip at a cut in which a piece has no outline of its own; the
  * sine of its angle. */
 double stripWidth(const ObservedObject& o) {
@@ -147,11 +164,13 @@ outlineBesideJoints(const ObservedObject& o, const Piece& piece, double size) {
   if (!o.hasCamera() || piece.ends.empty())
     return piece.contour;
   const double joint = JOINT * size / o.depth;
+  std::vector<AngleAbove> angles;
+  for (const SupportPlane& end : piece.ends)
+    angles.emplace_back(o.camera, -end.normal);
   const auto beyondJoints = [&](const Eigen::Vector2d& pixel) {
-    const Eigen::Vector3d ray = o.camera.ray(pixel);
     double nearest = 1e300;
-    for (const SupportPlane& end : piece.ends)
-      nearest = std::min(nearest, -end.normal.dot(ray) - joint);
+    for (const AngleAbove& angle : angles)
+      nearest = std::min(nearest, angle(pixel) - joint);
     return nearest;
   };
   std::vector<ContourPoint> contour;
@@ -232,16 +251,14 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
       part.points.push_back(i);
   if (part.points.size() < MIN_POINTS)
     return {};
-  const auto inside = [&](const Eigen::Vector2d& pixel) {
-    return cut.normal.dot(o.camera.ray(pixel)) > 0.0;
-  };
   if (o.hasCamera()) {
+    const AngleAbove angle(o.camera, cut.normal);
     for (const ContourPoint& p : piece.contour)
-      if (inside(p.pixel))
+      if (angle(p.pixel) > 0.0)
         part.contour.push_back(p);
     const double near = stripWidth(o);
     for (const Eigen::Vector2d& p : piece.pixels) {
-      const double side = cut.normal.dot(o.camera.ray(p));
+      const double side = angle(p);
       if (side <= 0.0)
         continue;
       part.pixels.push_back(p);

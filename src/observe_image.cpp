@@ -82,7 +82,7 @@ bool observeImage(Observation& o, std::string& why) {
     return false;
   }
   measure(out);
-  out.sideways = sidewaysErrors(o);
+  out.sideways = sidewaysErrors(o, patch);
   if (o.view.table)
     out.table = *o.view.table;
   else if (!out.table && o.view.find_table)

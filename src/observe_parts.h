@@ -63,7 +63,7 @@ inline double standingHeight(const TableModel& table, double depth) {
 
 /** \brief How far each point's surface moves along its normal when the measurement
  * belongs a pixel beside the point's own [m]. */
-Eigen::VectorXf sidewaysErrors(const Observation& o);
+Eigen::VectorXf sidewaysErrors(const Observation& o, const DepthPatch& patch);
 
 /** \brief Extent and depth from the points. */
 void measure(ObservedObject& observed);

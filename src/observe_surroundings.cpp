@@ -11,7 +11,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int OCCLUDER_REACH = DepthPatch::MARGIN; ///< searched beyond the outline [px]
+constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outline [px]
 constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
 constexpr int FREE_PIXELS = 500; ///< about so many around the object are looked at
 

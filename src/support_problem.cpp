@@ -142,7 +142,8 @@ Trial SupportProblem::minimise(const Trial& start,
                                kernels::Residual residual,
                                int iterations,
                                const ParameterSpace& space,
-                               bool few_planes) const {
+                               bool few_planes,
+                               const Hopeless& hopeless) const {
   LmOptions o = limits(start.sigma);
   o.residual = residual;
   o.max_iterations = iterations;
@@ -154,6 +155,7 @@ Trial SupportProblem::minimise(const Trial& start,
   const SupportSums sums(cost);
   if (!cost.empty())
     o.contributor = std::cref(sums);
+  o.hopeless = {hopeless.after, hopeless.cost * cost.unit * cost.unit};
   const LmResult r = levenbergMarquardt(points, start.model, o);
   Trial t = start;
   t.model = r.model;

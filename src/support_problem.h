@@ -25,13 +25,15 @@ public:
                const SupportFitOptions& options);
 
   /** \brief Least squares from a start on the first \a count points with every
-   * \a stride-th silhouette plane. The points' sigma is that of the start. */
+   * \a stride-th silhouette plane. The points' sigma is that of the start.
+   * \param[in] hopeless its cost is as that of a Trial */
   Trial minimise(const Trial& start,
                  const UnitPoints& points,
                  kernels::Residual residual,
                  int iterations,
                  const ParameterSpace& space = {},
-                 bool few_planes = false) const;
+                 bool few_planes = false,
+                 const Hopeless& hopeless = {}) const;
   /** \brief The points' sigma at a trial; the given noise where it is known. */
   double sigmaOf(const Trial& trial, const UnitPoints& points) const;
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double BOX_EPSILON = 0.2;
 constexpr int ITERATIONS = 20;
+constexpr int JUDGED = 5; ///< iterations after which a family's fit may be given up
 
 /** \brief A solid of revolution that slides along its axis. */
 ParameterSpace coaxialSpace() {
@@ -41,10 +42,20 @@ bool flat(const Superquadric& m) {
   return std::abs(std::log(m.semi_axes[0] / m.semi_axes[1])) > 0.4;
 }
 
+/** \brief Twice the most that a candidate may cost to be better than one of a given
+ * cost for its fewer parameters. */
+double farAbove(double cost, const SupportProblem& problem) {
+  constexpr double PARAMETERS = 8.0;
+  const double n = problem.observations();
+  return 2.0 * (cost + PARAMETERS * std::log(n) * std::max(1.0, cost / n));
+}
+
 class Families {
 public:
-  Families(const SupportProblem& problem, double sigma)
-      : problem_(problem), sigma_(sigma) {}
+  /** \param[in] general fit; those are given up that stay far above it */
+  Families(const SupportProblem& problem, const Trial& general)
+      : problem_(problem),
+        sigma_(general.sigma), hopeless_{JUDGED, farAbove(general.cost, problem)} {}
 
   /** \brief Members of a family from a start; fitted by take(). */
   void fit(ShapeClass shape, const Superquadric& start, int upright_axis) {
@@ -127,8 +138,13 @@ private:
                      const ParameterSpace& space,
                      bool is_upright,
                      bool on_axis) const {
-    const Trial t = problem_.minimise(
-        start, problem_.medium(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
+    const Trial t = problem_.minimise(start,
+                                      problem_.medium(),
+                                      kernels::Residual::FOOT_POINT,
+                                      ITERATIONS,
+                                      space,
+                                      false,
+                                      hopeless_);
     ShapeCandidate c;
     c.shape = shape;
     c.upright = is_upright;
@@ -153,6 +169,7 @@ private:
 
   const SupportProblem& problem_;
   double sigma_;
+  Hopeless hopeless_;
   std::vector<std::function<void(std::vector<ShapeCandidate>&)>> tasks_;
 };
 
@@ -208,7 +225,7 @@ std::vector<ShapeCandidate> fitShapes(const SupportProblem& problem,
                                       const Trial& first) {
   const bool choose = problem.options().choose_shape;
   const Trial general = choose ? bestDescription(problem, first) : first;
-  Families families(problem, general.sigma);
+  Families families(problem, general);
   const Superquadric& m = general.model;
   if (choose)
     families.fit(ShapeClass::GENERIC, m, -1);
