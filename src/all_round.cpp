@@ -136,11 +136,12 @@ Parts bestSplit(const PieceContext& context,
   std::sort(tries.begin(), tries.end(), better);
   while (!tries.empty() && (tries.size() > TRIED || tries.back().score > limit))
     tries.pop_back();
-  parallelFor(tries.size(), threads, [&](std::size_t i) {
-    fitPiece(context, tries[i].pieces[which], Effort::FULL);
-    fitPiece(context, tries[i].pieces.back(), Effort::FULL);
-    settle(context, tries[i]);
+  // half a try at a time: few are left, and the threads should end together
+  parallelFor(2 * tries.size(), threads, [&](std::size_t i) {
+    std::vector<Piece>& pieces = tries[i / 2].pieces;
+    fitPiece(context, i % 2 == 0 ? pieces[which] : pieces.back(), Effort::FULL);
   });
+  parallelFor(tries.size(), threads, [&](std::size_t i) { settle(context, tries[i]); });
   const auto best = std::min_element(tries.begin(), tries.end(), better);
   return best == tries.end() ? Parts() : std::move(*best);
 }

@@ -171,6 +171,46 @@ TEST_P(EveryIsa, IsFiniteAtTheCentreOnTheAxesAndFarAway) {
     }
 }
 
+TEST_P(EveryIsa, PlaneSumsAgreeWithThePortableOnes) {
+  Random random(5);
+  for (const std::size_t count : {1U, 3U, 52U, 300U}) {
+    const std::size_t padded = (count + BLOCK - 1) / BLOCK * BLOCK;
+    std::vector<std::vector<float>> a(7, std::vector<float>(padded, 0.0F));
+    Superquadric s = random.superquadric();
+    s.semi_axes = {0.7, 1.1, 1.6};
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d n = random.direction();
+      for (int k = 0; k < 3; ++k)
+        a[std::size_t(k)][i] = float(n[k]);
+      a[3][i] = float(n.dot(s.center) + s.support(n) + random.normal(0.1));
+      a[4][i] = float(random.uniform(0.5, 2.0));
+      a[5][i] = i % 3 == 0 ? 0.0F : -1e30F;
+      a[6][i] = float(random.uniform(0.0, 2.0));
+    }
+    const Planes planes = {a[0].data(),
+                           a[1].data(),
+                           a[2].data(),
+                           a[3].data(),
+                           a[4].data(),
+                           a[5].data(),
+                           a[6].data(),
+                           count};
+    PlaneSums expected, sums;
+    kernelsFor(Isa::PORTABLE)->planes(planes, detail::toShape(s), expected);
+    kernels_->planes(planes, detail::toShape(s), sums);
+    for (int i = 0; i < ROWS; ++i) {
+      const double size = std::sqrt(expected.products[i][i]);
+      EXPECT_NEAR(sums.shared[i],
+                  expected.shared[i],
+                  1e-4 * (1e-3 + size) * std::sqrt(double(count)));
+      for (int j = i; j < ROWS; ++j)
+        EXPECT_NEAR(sums.products[i][j],
+                    expected.products[i][j],
+                    1e-4 * (1e-6 + size * std::sqrt(expected.products[j][j])));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Kernels,
     EveryIsa,

@@ -150,6 +150,21 @@ TEST(LevenbergMarquardt, AContributorPullsWhereThePointsAreSilent) {
   EXPECT_NEAR(-below.dot(r.model.center) + r.model.support(-below), 0.6, 0.03);
 }
 
+TEST(LevenbergMarquardt, AHopelessFitEndsAndAPromisingOneGoesOn) {
+  Random random(8);
+  const Superquadric truth = unitShape(random);
+  const UnitPoints points = surfacePoints(random, truth, 300, 0.0);
+  Superquadric start = truth;
+  start.semi_axes *= 1.3;
+  const LmResult free = levenbergMarquardt(points, start, {});
+  ASSERT_GT(free.iterations, 3);
+  LmOptions o;
+  o.hopeless = {2, 0.0};
+  EXPECT_EQ(levenbergMarquardt(points, start, o).iterations, 2);
+  o.hopeless = {2, 1e9};
+  EXPECT_EQ(levenbergMarquardt(points, start, o).iterations, free.iterations);
+}
+
 TEST(SurfaceArea, OfKnownBodies) {
   const auto area = [](const Eigen::Vector3d& a, double e1, double e2) {
     return std::exp(logArea(a, e1, e2).value);

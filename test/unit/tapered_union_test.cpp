@@ -135,3 +135,29 @@ TEST(TaperedSuperquadric, OuterAreaOfOneBodyIsItsMeshs) {
     EXPECT_NEAR(detail::outerArea({s}), area, 0.03 * area) << "case " << i;
   }
 }
+
+TEST(TaperedSuperquadric, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
+  Random random(96);
+  int kept = 0;
+  for (int i = 0; i < 20; ++i) {
+    TaperedSuperquadric s = anyBody(random);
+    if (i % 2 == 0)
+      s.kx = s.ky = 0.0;
+    Eigen::Matrix3Xd points(3, 200);
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      points.col(k) = s.shape.center + random.uniform(0.0, 3.0) *
+                                           (random.pointNear(s.shape) - s.shape.center);
+    const double reach = 0.3 * s.shape.semi_axes.minCoeff();
+    const Eigen::VectorXd exact = detail::bodyDistances(s, points);
+    Eigen::VectorXd distances = Eigen::VectorXd::Constant(points.cols(), 2.0 * reach);
+    detail::keepNearer(
+        s, points, Eigen::ArrayXd::Constant(points.cols(), reach), distances);
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      if (exact[k] < reach) {
+        EXPECT_NEAR(distances[k], exact[k], 1e-5 * reach) << "case " << i;
+        ++kept;
+      } else
+        EXPECT_GE(distances[k], 0.999 * reach) << "case " << i;
+  }
+  EXPECT_GT(kept, 1000);
+}
