@@ -152,11 +152,11 @@ int work(const Options& o) {
     checkWritable(o.output);
   ModelFile file;
   std::string why;
-  if (!fromJson(readFile(o.model), file, &why, TaperedParts::READ))
+  if (!fromJson(readFile(o.model), file, &why))
     throw Failure("'" + o.model + "' is not a model: " + why);
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
-  const TaperedUnion model = file.tapered();
+  const MultiSuperquadric& model = file.model;
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},

@@ -132,8 +132,6 @@ int checkedFit(const Arguments& arguments) {
     throw app::UsageError(
         "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps and --snapshot "
         "are for one cloud.");
-  if (arguments.grasps > 0 && options.taper)
-    throw app::UsageError("--grasps cannot respect a taper; leave --taper out.");
   if (arguments.grasps > 0)
     app::checkGraspOptions(arguments.grasp_options);
   app::checkModelOptions(options);

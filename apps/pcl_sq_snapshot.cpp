@@ -126,9 +126,9 @@ int takePictures(const Arguments& a) {
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
-    if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
+    if (!fromJson(app::readFile(a.model), file, &why))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
-    app::addModel(renderer, file);
+    renderer.addModel(file.model);
     SnapshotOptions options = a.options;
     options.sensor = reported(file, "sensor");
     if (const auto up = reported(file, "up"); up && up->norm() > 1e-6 && a.up.empty())

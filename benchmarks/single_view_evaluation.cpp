@@ -110,7 +110,7 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
     std::printf("  failed: %s\n", why.c_str());
   r.milliseconds = 1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC;
   r.parts = fit.model.size();
-  r.scores = score(truth.model, fit.tapered);
+  r.scores = score(truth.model, fit.model);
   if (settings.verbose) {
     std::printf("    observe %.1f ms, %d points, %zu contour, depth %.3f\n",
                 1e3 * double(seen - begin) / CLOCKS_PER_SEC,
@@ -156,23 +156,21 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                   1e3 * m.semi_axes[2],
                   m.epsilon1,
                   m.epsilon2,
-                  part.chosen.kx,
-                  part.chosen.ky);
+                  m.kx,
+                  m.ky);
       for (const ShapeCandidate& k : part.candidates)
         std::printf(" %s%s %.0f", toString(k.shape), k.upright ? "^" : "", k.bic);
       std::printf("\n");
     }
-    for (const TaperedSuperquadric& body : truth.model.parts) {
-      const Superquadric& m = body.shape;
+    for (const Superquadric& m : truth.model.parts)
       std::printf("    true a %.1f %.1f %.1f e %.2f %.2f taper %.2f %.2f\n",
                   1e3 * m.semi_axes[0],
                   1e3 * m.semi_axes[1],
                   1e3 * m.semi_axes[2],
                   m.epsilon1,
                   m.epsilon2,
-                  body.kx,
-                  body.ky);
-    }
+                  m.kx,
+                  m.ky);
     for (const std::string& note : observed.notes)
       std::printf("    note: %s\n", note.c_str());
   }

@@ -15,9 +15,8 @@ namespace {
 constexpr int VOLUME_SAMPLES = 40000;
 constexpr std::size_t SURFACE_SAMPLES = 1500;
 
-TaperedSuperquadric readPart(const nlohmann::json& json) {
-  TaperedSuperquadric body;
-  Superquadric& s = body.shape;
+Superquadric readPart(const nlohmann::json& json) {
+  Superquadric s;
   for (int i = 0; i < 3; ++i) {
     s.semi_axes[i] = json["a"][i];
     s.center[i] = json["t"][i];
@@ -27,25 +26,23 @@ TaperedSuperquadric readPart(const nlohmann::json& json) {
   s.epsilon1 = std::min(2.0, std::max(0.05, double(json["e"][0])));
   s.epsilon2 = std::min(2.0, std::max(0.05, double(json["e"][1])));
   if (json.contains("k")) {
-    body.kx = json["k"][0];
-    body.ky = json["k"][1];
+    s.kx = json["k"][0];
+    s.ky = json["k"][1];
   }
-  return body;
+  return s;
 }
 
-double meanDistance(const TaperedUnion& from, const TaperedUnion& to) {
+double meanDistance(const MultiSuperquadric& from, const MultiSuperquadric& to) {
   double sum = 0.0, n = 0.0;
   for (std::size_t k = 0; k < from.size(); ++k)
-    for (const Eigen::Vector3d& even :
-         sampleUniform(from.parts[k].shape, SURFACE_SAMPLES, 7)) {
-      const Eigen::Vector3d p = from.parts[k].tapered(even);
+    for (const Eigen::Vector3d& p : sampleUniform(from.parts[k], SURFACE_SAMPLES, 7)) {
       bool inner = false;
       for (std::size_t j = 0; j < from.size() && !inner; ++j)
         inner = j != k && from.parts[j].gauge(p) < 0.999;
       if (inner)
         continue;
       double d = 1e300;
-      for (const TaperedSuperquadric& s : to.parts)
+      for (const Superquadric& s : to.parts)
         d = std::min(d, std::abs(s.footPointDistance(p)));
       sum += d;
       n += 1.0;
@@ -80,7 +77,7 @@ Truth readTruth(const std::string& path) {
   return t;
 }
 
-Scores score(const TaperedUnion& truth, const TaperedUnion& model) {
+Scores score(const MultiSuperquadric& truth, const MultiSuperquadric& model) {
   Scores s;
   if (model.empty()) {
     s.surface = 1.0;

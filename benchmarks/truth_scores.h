@@ -2,7 +2,7 @@
 // Measures of a union of superquadrics against the exact truth.
 #pragma once
 
-#include "pcl_sq/tapered_union.h"
+#include "pcl_sq/multi_superquadric.h"
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace pcl_sq::benchmark {
 /** \brief Truth of one generated object. */
 struct Truth {
   std::string name;
-  TaperedUnion model;
+  MultiSuperquadric model;
   bool has_camera_center = false;
   Eigen::Vector3d camera_center = Eigen::Vector3d::Zero();
   double f = 0.0, cx = 0.0, cy = 0.0; ///< 0: no image
@@ -26,6 +26,6 @@ struct Scores {
   double surface = 0.0; ///< mean distance of the surfaces, both ways [m]
 };
 
-Scores score(const TaperedUnion& truth, const TaperedUnion& model);
+Scores score(const MultiSuperquadric& truth, const MultiSuperquadric& model);
 
 } // namespace pcl_sq::benchmark

@@ -40,12 +40,12 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(o.points.cols(), 1e300);
   const Eigen::ArrayXd reach =
       Eigen::ArrayXd::Constant(distances.size(), OUTLYING * context.noise);
-  std::vector<TaperedSuperquadric> bodies;
+  std::vector<Superquadric> bodies;
   double parameters = 0.0, demand = 0.0;
   for (const Piece& piece : pieces) {
     if (!piece.fit.fit.ok())
       return 1e300;
-    bodies.push_back(bodyOf(piece.fit));
+    bodies.push_back(piece.fit.fit.model);
     keepNearer(bodies.back(), o.points, reach, distances);
     parameters += piece.fit.chosen.parameters;
     if (bodies.back().isTapered())
@@ -70,7 +70,7 @@ bool assignPoints(const PieceContext& context, std::vector<Piece>& pieces) {
   std::vector<std::size_t> owner(static_cast<std::size_t>(n), 0);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     Eigen::VectorXd distances =
-        bodyDistances(bodyOf(pieces[k].fit), context.observed.points).cwiseAbs();
+        surfaceDistances(pieces[k].fit.fit.model, context.observed.points).cwiseAbs();
     for (const int i : pieces[k].points)
       distances[i] -= context.noise;
     for (Eigen::Index i = 0; i < n; ++i)

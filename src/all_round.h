@@ -20,15 +20,11 @@ std::vector<Piece> splitAllRound(const PieceContext& context,
                                  double min_gain);
 
 /** \brief Area of the surface of a union, without what lies inside of it [m^2]. */
-double outerArea(const std::vector<TaperedSuperquadric>& parts);
-
-/** \brief surfaceDistances() of a body that may be tapered [m]. */
-Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
-                              const Eigen::Matrix3Xd& points);
+double outerArea(const std::vector<Superquadric>& parts);
 
 /** \brief Replaces distances of points by those to a body where they are smaller.
  * Points whose distance to it is sure to exceed their reach may keep theirs [m]. */
-void keepNearer(const TaperedSuperquadric& body,
+void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,
                 const Eigen::ArrayXd& reach,
                 Eigen::VectorXd& distances);

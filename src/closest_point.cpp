@@ -4,7 +4,7 @@
 // stalls at an edge; a bracket does not.
 #include "pcl_sq/superquadric.h"
 
-#include "gauge.h"
+#include "taper.h"
 
 #include <boost/math/tools/minima.hpp>
 
@@ -51,27 +51,42 @@ Eigen::Vector2d onUnitSuperellipse(double s, double epsilon) {
 Eigen::Vector3d Superquadric::closestPoint(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
   const Eigen::Vector3d folded = local.cwiseAbs();
-  const auto surfacePoint = [this](const Eigen::Vector2d& profile, double s) {
-    const Eigen::Vector2d section = onUnitSuperellipse(s, epsilon2);
-    return Eigen::Vector3d(profile[0] * section[0], profile[0] * section[1], profile[1])
-        .cwiseProduct(semi_axes)
-        .eval();
+  // the point of the surface nearest to a place with no negative coordinate, in the
+  // half of the body on one side of z = 0, mirrored to z >= 0
+  const auto closestInHalf = [this](const Eigen::Vector3d& place, double side) {
+    const auto surfacePoint = [this, side](const Eigen::Vector2d& profile, double s) {
+      const Eigen::Vector2d section = onUnitSuperellipse(s, epsilon2);
+      return Eigen::Vector3d(
+                 profile[0] * section[0], profile[0] * section[1], profile[1])
+          .cwiseProduct(semi_axes)
+          .cwiseProduct(detail::growth(*this, side * profile[1] * semi_axes.z()))
+          .eval();
+    };
+    const auto bestOnSection = [&](double s) {
+      const Eigen::Vector2d profile = onUnitSuperellipse(s, epsilon1);
+      return minimumOnUnitInterval(
+          [&](double t) { return (surfacePoint(profile, t) - place).squaredNorm(); });
+    };
+    const double s =
+        minimumOnUnitInterval([&](double t) { return bestOnSection(t).second; }).first;
+    return surfacePoint(onUnitSuperellipse(s, epsilon1), bestOnSection(s).first);
   };
-  const auto bestOnSection = [&](double s) {
-    const Eigen::Vector2d profile = onUnitSuperellipse(s, epsilon1);
-    return minimumOnUnitInterval(
-        [&](double t) { return (surfacePoint(profile, t) - folded).squaredNorm(); });
-  };
-  const double s =
-      minimumOnUnitInterval([&](double t) { return bestOnSection(t).second; }).first;
-  Eigen::Vector3d closest =
-      surfacePoint(onUnitSuperellipse(s, epsilon1), bestOnSection(s).first);
+  const double side = std::copysign(1.0, local.z());
+  Eigen::Vector3d closest = closestInHalf(folded, side);
+  if (isTapered()) { // the larger half may be nearer though the point is not beside it
+    const Eigen::Vector3d mirrored(folded.x(), folded.y(), -folded.z());
+    Eigen::Vector3d other = closestInHalf(mirrored, -side);
+    other.z() = -other.z();
+    if ((other - folded).squaredNorm() < (closest - folded).squaredNorm())
+      closest = other;
+  }
   // near the surface the radial projection may be nearer than the brackets' resolution
-  const Eigen::Vector3d radial = toLocal(radialProjection(point)).cwiseAbs();
+  Eigen::Vector3d radial = toLocal(radialProjection(point)).cwiseAbs();
   if ((radial - folded).squaredNorm() < (closest - folded).squaredNorm())
     closest = radial;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 2; ++axis)
     closest[axis] = std::copysign(closest[axis], local[axis]);
+  closest.z() *= side;
   return toWorld(closest);
 }
 

@@ -314,7 +314,6 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
             .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
-    fit.single_bic = pieces[0].score;
     if (observed.hasCamera()) {
       context.limits.push_back(backOf(pieces[0].fit, observed));
       splitView(context, pieces, wanted, min_gain);
@@ -329,7 +328,6 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     fit.bic += pieces[k].score;
     fit.model.parts.push_back(pieces[k].fit.fit.model);
-    fit.tapered.parts.push_back(bodyOf(pieces[k].fit));
     addDistances(gather(context, pieces[k].points), pieces[k].fit.fit);
     fit.parts.push_back(std::move(pieces[k].fit));
     for (const int i : pieces[k].points)

@@ -216,6 +216,8 @@ const char* toString(Termination termination) {
     return "MAX_ITERATIONS";
   case Termination::DAMPING_TOO_LARGE:
     return "DAMPING_TOO_LARGE";
+  case Termination::GIVEN_UP:
+    return "GIVEN_UP";
   case Termination::TOO_FEW_POINTS:
     return "TOO_FEW_POINTS";
   case Termination::DEGENERATE:

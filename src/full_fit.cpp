@@ -73,7 +73,8 @@ Candidate anneal(const UnitPoints& points,
     s.iterations += r.iterations;
     c.model = r.model;
     const double before = c.mixture.sigma;
-    c.mixture = estimated(c.mixture, r.equations, points.size(), s.limits);
+    c.mixture = estimated(
+        c.mixture, r.equations.share, r.equations.weighted, points.size(), s.limits);
     c.mixture.sigma = std::max(c.mixture.sigma, shrinkage * before);
     if (std::abs(c.mixture.sigma - before) < SETTLED * before &&
         r.termination == Termination::COST_CHANGE_TOO_SMALL)
@@ -162,7 +163,11 @@ Candidate refine(const UnitPoints& points,
     left -= std::max(last.iterations, 1);
     c.model = last.model;
     const double before = c.mixture.sigma;
-    c.mixture = estimated(c.mixture, last.equations, points.size(), s.limits);
+    c.mixture = estimated(c.mixture,
+                          last.equations.share,
+                          last.equations.weighted,
+                          points.size(),
+                          s.limits);
     if (std::abs(c.mixture.sigma - before) < 0.01 * before &&
         last.termination != Termination::MAX_ITERATIONS)
       break;

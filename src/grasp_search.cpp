@@ -47,12 +47,13 @@ GraspSearch::GraspSearch(const MultiSuperquadric& object,
   centre_.setZero();
   for (const Superquadric& part : object.parts) {
     volume += part.volume();
-    centre_ += part.volume() * part.center;
+    centre_ += part.volume() * part.centerOfGravity();
   }
   centre_ /= volume;
   radius_ = 0.0;
   for (const Superquadric& part : object.parts)
-    radius_ = std::max(radius_, (part.center - centre_).norm() + part.semi_axes.norm());
+    radius_ =
+        std::max(radius_, (part.center - centre_).norm() + part.halfSizes().norm());
   favoured_.setZero();
   if (scene.has_table)
     favoured_ -= scene.table_normal;

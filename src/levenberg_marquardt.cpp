@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levenberg_marquardt.h"
 
-#include "damped_solve.h"
+#include "mixture.h"
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MIN_DAMPING = 1e-9;
-constexpr double MAX_DAMPING = 1e8;
-constexpr double DAMPING_DOWN = 0.2;
-constexpr double DAMPING_UP = 6.0;
 /** \brief A point's share in what rounding alone changes in a cost: single-precision
  * residuals of points of size one, squared. Exact points would else keep a fit busy. */
 constexpr double ROUNDING = 1e-14;
 constexpr double TRUST = 0.7; ///< largest step of an angle, a logarithm, an exponent
+constexpr double TAPER_TRUST = 0.3; ///< largest step of a taper
 
 kernels::Mixture mixture(const LmOptions& o) {
   kernels::Mixture m;
@@ -25,43 +22,21 @@ kernels::Mixture mixture(const LmOptions& o) {
   return m;
 }
 
-NormalEquations evaluate(const UnitPoints& points,
-                         const Superquadric& model,
-                         const LmOptions& options) {
-  NormalEquations e = normalEquations(points, model, options);
-  if (options.contributor)
-    options.contributor(model, e);
-  return e;
+/** \brief Shortens a part of a step. \return whether it did */
+template <int N>
+bool shorten(Eigen::Matrix<double, N, 1>& step, int begin, int size, double trust) {
+  const double largest = step.segment(begin, size).cwiseAbs().maxCoeff();
+  if (!(largest > trust))
+    return false;
+  step.segment(begin, size) *= trust / largest;
+  return true;
+}
+
+bool outOf(double value, double low, double high, double direction) {
+  return (value <= low && direction < 0.0) || (value >= high && direction > 0.0);
 }
 
 } // namespace
-
-bool leadsOut(const Superquadric& m, const Vector11& direction, const LmOptions& o) {
-  for (int i = 6; i < 11; ++i) {
-    const double value = i < 9 ? m.semi_axes[i - 6] : i == 9 ? m.epsilon1 : m.epsilon2;
-    const double low = i < 9 ? o.min_axis : o.min_epsilon;
-    const double high = i < 9 ? o.max_axis : o.max_epsilon;
-    if ((value <= low && direction[i] < 0.0) || (value >= high && direction[i] > 0.0))
-      return true;
-  }
-  return false;
-}
-
-bool limitStep(Vector11& step, const Superquadric& m) {
-  bool limited = false;
-  const auto shorten = [&](int begin, int size, double trust) {
-    const double largest = step.segment(begin, size).cwiseAbs().maxCoeff();
-    if (largest > trust) {
-      step.segment(begin, size) *= trust / largest;
-      limited = true;
-    }
-  };
-  shorten(0, 3, TRUST * m.semi_axes.maxCoeff());
-  shorten(3, 3, TRUST);
-  shorten(6, 3, TRUST);
-  shorten(9, 2, TRUST);
-  return limited;
-}
 
 ParameterSpace ParameterSpace::without(unsigned fixed) {
   ParameterSpace space;
@@ -79,13 +54,14 @@ ParameterSpace ParameterSpace::rotational() {
   return space;
 }
 
-NormalEquations normalEquations(const UnitPoints& points,
-                                const Superquadric& model,
-                                const LmOptions& options) {
+template <>
+SquareSums<11> sumsOf<11>(const UnitPoints& points,
+                          const Superquadric& model,
+                          const LmOptions& options) {
   kernels::Sums sums;
   kernels::kernels().normalEquations(
       points.view(), toShape(model), options.residual, mixture(options), sums);
-  NormalEquations e;
+  SquareSums<11> e;
   for (int i = 0; i < 11; ++i) {
     for (int j = i; j < 11; ++j)
       e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
@@ -94,6 +70,30 @@ NormalEquations normalEquations(const UnitPoints& points,
   e.cost = e.points_cost = sums.cost;
   e.share = sums.share;
   e.weighted = sums.products[11][11];
+  return e;
+}
+
+template <>
+SquareSums<13> sumsOf<13>(const UnitPoints& points,
+                          const Superquadric& model,
+                          const LmOptions& options) {
+  const GaussianUniform density{options.sigma > 0.0 ? options.sigma : 1.0,
+                                options.outlier};
+  const float* precision = points.view().precision;
+  SquareSums<13> e;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const BodyRow row = footPointRow(model, points[i].cast<double>());
+    const double q = precision ? double(precision[i]) : 1.0;
+    const double square = q * row.value * row.value;
+    double share;
+    e.points_cost += density.cost(square, share);
+    e.share += share;
+    e.weighted += share * square;
+    e.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row.derivatives, share * q);
+    e.jtr += share * q * row.value * row.derivatives;
+  }
+  e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
+  e.cost = e.points_cost;
   return e;
 }
 
@@ -125,79 +125,85 @@ moved(const Superquadric& model, const Vector11& step, const LmOptions& o) {
   return m;
 }
 
-LmResult levenbergMarquardt(const UnitPoints& points,
-                            const Superquadric& start,
-                            const LmOptions& o) {
-  LmResult r;
-  r.model = moved(start, Vector11::Zero(), o);
-  r.equations = evaluate(points, r.model, o);
-  r.termination = Termination::MAX_ITERATIONS;
-  const auto& basis = o.space.basis;
-  const int n = static_cast<int>(basis.cols());
-  const bool all = n == 11 && basis.isIdentity(0.0);
-  const double rounding = ROUNDING * double(points.size());
-  double damping = o.initial_damping;
-  bool fresh = true; // the equations changed since they were last reduced
-  Matrix11 jtj;
-  Vector11 jtr, step;
-  bool frozen[11] = {};
-  while (r.iterations < o.max_iterations) {
-    if (r.iterations >= o.hopeless.after && r.equations.cost > o.hopeless.cost)
-      break;
-    if (fresh) {
-      if (all) {
-        jtj = r.equations.jtj;
-        jtr = r.equations.jtr;
-      } else {
-        jtj.topLeftCorner(n, n).noalias() = basis.transpose() * r.equations.jtj * basis;
-        jtr.head(n).noalias() = basis.transpose() * r.equations.jtr;
-      }
-      for (int i = 0; i < n; ++i)
-        frozen[i] = leadsOut(r.model, -jtr[i] * basis.col(i), o);
-      fresh = false;
-    }
-    ++r.iterations;
-    const bool solved = dampedSolve(jtj, jtr, n, frozen, damping, step);
-    if (solved) {
-      // what the model itself promises; not worth an evaluation once it is nothing
-      const double promised = -jtr.head(n).dot(step.head(n));
-      const double negligible = o.cost_tolerance * r.equations.points_cost + rounding;
-      if (damping <= 1.0 && promised <= negligible) {
-        r.termination = Termination::COST_CHANGE_TOO_SMALL;
-        break;
-      }
-      Vector11 full = basis * step.head(n);
-      const bool limited = limitStep(full, r.model);
-      const Superquadric candidate = moved(r.model, full, o);
-      const NormalEquations e = evaluate(points, candidate, o);
-      if (e.cost < r.equations.cost) {
-        const double decrease = r.equations.cost - e.cost;
-        const bool small = !limited && decrease <= negligible;
-        r.model = candidate;
-        r.equations = e;
-        fresh = true;
-        damping = std::max(damping * DAMPING_DOWN, MIN_DAMPING);
-        if (small) {
-          r.termination = Termination::COST_CHANGE_TOO_SMALL;
-          break;
-        }
-        continue;
-      }
-      if (full.cwiseAbs().maxCoeff() <= o.step_tolerance) {
-        r.termination = Termination::STEP_TOO_SMALL;
-        break;
-      }
-    }
-    damping *= DAMPING_UP;
-    if (damping > MAX_DAMPING) {
-      r.termination = Termination::DAMPING_TOO_LARGE;
-      break;
-    }
+template <int N>
+SquareSums<N> PointsProblem<N>::evaluate(const Superquadric& model) const {
+  Equations e = sumsOf<N>(points, model, options);
+  if (contributor)
+    contributor(model, e);
+  return e;
+}
+
+template <int N>
+Superquadric PointsProblem<N>::moved(const Superquadric& m,
+                                     const Vector& step,
+                                     bool& limited) const {
+  Vector s = step;
+  limited = shorten(s, 0, 3, TRUST * m.semi_axes.maxCoeff());
+  limited = shorten(s, 3, 3, TRUST) || limited;
+  limited = shorten(s, 6, 3, TRUST) || limited;
+  limited = shorten(s, 9, 2, TRUST) || limited;
+  Superquadric next = detail::moved(m, s.template head<11>(), options);
+  if constexpr (N == 13) {
+    constexpr double MOST = Superquadric::MAX_TAPER;
+    limited = shorten(s, 11, 2, TAPER_TRUST) || limited;
+    next.kx = std::clamp(m.kx + s[11], -MOST, MOST);
+    next.ky = std::clamp(m.ky + s[12], -MOST, MOST);
   }
-  r.damping = std::clamp(damping, MIN_DAMPING, o.initial_damping);
+  return next;
+}
+
+template <int N>
+bool PointsProblem<N>::leadsOut(const Superquadric& m, const Vector& direction) const {
+  const LmOptions& o = options;
+  for (int k = 0; k < 3; ++k)
+    if (outOf(m.semi_axes[k], o.min_axis, o.max_axis, direction[6 + k]))
+      return true;
+  if (outOf(m.epsilon1, o.min_epsilon, o.max_epsilon, direction[9]) ||
+      outOf(m.epsilon2, o.min_epsilon, o.max_epsilon, direction[10]))
+    return true;
+  if constexpr (N == 13) {
+    constexpr double MOST = Superquadric::MAX_TAPER;
+    return outOf(m.kx, -MOST, MOST, direction[11]) ||
+           outOf(m.ky, -MOST, MOST, direction[12]);
+  }
+  return false;
+}
+
+template <int N>
+double PointsProblem<N>::rounding() const {
+  return ROUNDING * double(points.size());
+}
+
+template struct PointsProblem<11>;
+template struct PointsProblem<13>;
+
+namespace {
+
+template <int N>
+LmSummary<PointsProblem<N>> minimise(const PointsProblem<N>& problem,
+                                     const Superquadric& start,
+                                     const Basis<N>& basis) {
+  auto r = minimiseSquares(
+      problem, moved(start, Vector11::Zero(), problem.options), basis, problem.options);
   r.model.rotation =
       Eigen::Quaterniond(r.model.rotation).normalized().toRotationMatrix();
   return r;
+}
+
+} // namespace
+
+LmResult levenbergMarquardt(const UnitPoints& points,
+                            const Superquadric& start,
+                            const LmOptions& o) {
+  return minimise(PointsProblem<11>{points, o, o.contributor}, start, o.space.basis);
+}
+
+LmSummary<PointsProblem<13>> fitTaperedBody(const UnitPoints& points,
+                                            const Superquadric& start,
+                                            const Basis<13>& basis,
+                                            const LmOptions& options,
+                                            const ContributorOf<13>& contributor) {
+  return minimise(PointsProblem<13>{points, options, contributor}, start, basis);
 }
 
 } // namespace pcl_sq::detail

@@ -3,6 +3,8 @@
 
 #include "gauge.h"
 
+#include <boost/math/tools/minima.hpp>
+
 #include <limits>
 
 namespace pcl_sq {
@@ -20,7 +22,7 @@ struct UnitLine {
 UnitLine toUnitCube(const Superquadric& s,
                     const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d scale = s.semi_axes.cwiseInverse();
+  const Eigen::Vector3d scale = s.halfSizes().cwiseInverse();
   return {s.toLocal(origin).cwiseProduct(scale),
           (s.rotation.transpose() * direction).cwiseProduct(scale)};
 }
@@ -71,6 +73,48 @@ bool approach(const Superquadric& s,
   return true;
 }
 
+/** \brief Where a line comes deepest into a tapered body, between two places; the gauge
+ * may have several minima along a line. */
+double deepest(const Superquadric& s,
+               const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& direction,
+               const LineInterval& range,
+               double& gauge) {
+  constexpr int SAMPLES = 12;
+  constexpr int PRECISION_BITS = 26;
+  const auto at = [&](double t) { return s.gauge(origin + t * direction); };
+  const double step = (range.leave - range.enter) / SAMPLES;
+  double best = range.enter;
+  gauge = at(best);
+  for (int i = 1; i <= SAMPLES; ++i) {
+    const double t = range.enter + i * step, value = at(t);
+    if (value < gauge) {
+      gauge = value;
+      best = t;
+    }
+  }
+  const auto refined = boost::math::tools::brent_find_minima(
+      at, best - step, best + step, PRECISION_BITS);
+  if (refined.second < gauge) {
+    gauge = refined.second;
+    best = refined.first;
+  }
+  return best;
+}
+
+/** \brief The surface between a place inside of a tapered body and one outside. */
+double crossing(const Superquadric& s,
+                const Eigen::Vector3d& origin,
+                const Eigen::Vector3d& direction,
+                double inside,
+                double outside) {
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (s.gauge(origin + middle * direction) <= 1.0 ? inside : outside) = middle;
+  }
+  return inside;
+}
+
 } // namespace
 
 bool intersectLineBox(const Superquadric& s,
@@ -88,6 +132,15 @@ bool intersectLine(const Superquadric& s,
   LineInterval box;
   if (!clipToUnitCube(line, box))
     return false;
+  if (s.isTapered()) {
+    double gauge;
+    const double inside = deepest(s, origin, direction, box, gauge);
+    if (!(gauge <= 1.0))
+      return false;
+    interval.enter = crossing(s, origin, direction, inside, box.enter);
+    interval.leave = crossing(s, origin, direction, inside, box.leave);
+    return true;
+  }
   LineInterval found = box;
   if (!approach(s, line, 1.0, box.leave, found.enter) ||
       !approach(s, line, -1.0, found.enter, found.leave))

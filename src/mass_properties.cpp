@@ -27,10 +27,13 @@ Eigen::Matrix3d inertiaOf(const Eigen::Matrix3d& second) {
 Moments ofPart(const Superquadric& part) {
   Moments m;
   m.volume = part.volume();
-  m.first = m.volume * part.center;
+  m.first = m.volume * part.centerOfGravity();
   const Eigen::Matrix3d inertia = part.inertia(); // about the centre
+  const Eigen::Matrix3d across = // of a tapered body, which does not lie around it
+      m.volume * (part.centerOfGravity() - part.center) * part.center.transpose();
   m.second = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia +
-             m.volume * part.center * part.center.transpose();
+             m.volume * part.center * part.center.transpose() + across +
+             across.transpose();
   return m;
 }
 

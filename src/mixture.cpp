@@ -26,16 +26,17 @@ Mixture::negativeLogLikelihood(double cost, std::size_t count, double area) cons
 }
 
 Mixture estimated(const Mixture& before,
-                  const NormalEquations& sums,
+                  double share,
+                  double weighted,
                   std::size_t count,
                   const MixtureLimits& limits) {
   Mixture m = before;
   if (limits.fixed_sigma > 0.0)
     m.sigma = limits.fixed_sigma;
-  else if (sums.share > 0.0)
-    m.sigma = std::max(std::sqrt(sums.weighted / sums.share), limits.min_sigma);
+  else if (share > 0.0)
+    m.sigma = std::max(std::sqrt(weighted / share), limits.min_sigma);
   m.outlier_share =
-      limits.robust ? std::clamp(1.0 - sums.share / double(count),
+      limits.robust ? std::clamp(1.0 - share / double(count),
                                  MIN_OUTLIER_SHARE,
                                  std::max(limits.max_outlier_share, MIN_OUTLIER_SHARE))
                     : 0.0;

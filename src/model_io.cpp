@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/model_io.h"
 
-#include "pcl_sq/tapered_superquadric.h"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -17,19 +15,12 @@ using Json = nlohmann::ordered_json;
 constexpr const char* SCHEMA = "pcl_sq/model";
 constexpr int VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
-using Taper = std::array<double, 2>;
-
-bool isTapered(const Taper& taper) {
-  return taper[0] != 0.0 || taper[1] != 0.0;
-}
 
 Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-Json partToJson(const Superquadric& s,
-                const Taper& taper,
-                const PartStatistics& statistics) {
+Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
   Json rotation = Json::array();
   for (int row = 0; row < 3; ++row)
     rotation.push_back(vectorToJson(s.rotation.row(row)));
@@ -37,8 +28,8 @@ Json partToJson(const Superquadric& s,
                {"epsilon", {s.epsilon1, s.epsilon2}},
                {"translation", vectorToJson(s.center)},
                {"rotation", rotation}};
-  if (isTapered(taper))
-    json["taper"] = taper;
+  if (s.isTapered())
+    json["taper"] = {s.kx, s.ky};
   json["points"] = statistics.points;
   json["distortion"] = statistics.distortion;
   json["rms_distance"] = statistics.rms_distance;
@@ -87,7 +78,7 @@ std::string optionalString(const Json& object, const char* key) {
   return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
 }
 
-Superquadric partFromJson(const Json& part, std::size_t index) {
+Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
   Superquadric s;
   s.semi_axes = numbers<3>(member(part, "semi_axes"), "semi_axes");
   const Eigen::Matrix<double, 2, 1> epsilon =
@@ -100,49 +91,39 @@ Superquadric partFromJson(const Json& part, std::size_t index) {
     throw Refusal{"\"rotation\" must hold three rows"};
   for (int row = 0; row < 3; ++row)
     s.rotation.row(row) = numbers<3>(rotation[row], "rotation");
+  if (may_taper && part.contains("taper")) {
+    const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
+    s.kx = taper[0];
+    s.ky = taper[1];
+  }
   std::string why;
   if (!s.isValid(&why))
     throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
   return s;
 }
 
-Taper taperFromJson(const Json& part, const Superquadric& shape, std::size_t index) {
-  if (!part.contains("taper"))
-    return {};
-  const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
-  std::string why;
-  if (!TaperedSuperquadric{shape, taper[0], taper[1]}.isValid(&why))
-    throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
-  return {taper[0], taper[1]};
-}
-
 /** \brief Whether the file may hold tapered parts. */
-bool versionFromJson(const Json& json, TaperedParts tapered_parts) {
+bool versionFromJson(const Json& json) {
   const Json& version = member(json, "version");
   const long long number = version.is_number_integer() ? version.get<long long>() : 0;
-  if (number == TAPERED_VERSION && tapered_parts == TaperedParts::REFUSE)
-    throw Refusal{"it holds a tapered superquadric (version 2 of the schema), which "
-                  "cannot be used here"};
   if (number != VERSION && number != TAPERED_VERSION)
     throw Refusal{"version " + version.dump() +
                   " of the schema is not known, 1 and 2 are"};
   return number == TAPERED_VERSION;
 }
 
-void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) {
+void read(const std::string& text, ModelFile& file) {
   const Json json = Json::parse(text);
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
-  const bool tapered = versionFromJson(json, tapered_parts);
+  const bool tapered = versionFromJson(json);
   if (optionalString(json, "unit") != "m")
     throw Refusal{"the unit must be \"m\""};
   const Json& parts = member(json, "superquadrics");
   if (!parts.is_array())
     throw Refusal{"\"superquadrics\" must be a list"};
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    file.model.parts.push_back(partFromJson(parts[i], i));
-    if (tapered)
-      file.tapers.push_back(taperFromJson(parts[i], file.model.parts.back(), i));
+    file.model.parts.push_back(partFromJson(parts[i], i, tapered));
     file.statistics.push_back({optionalCount(parts[i], "points"),
                                optionalNumber(parts[i], "distortion"),
                                optionalNumber(parts[i], "rms_distance"),
@@ -185,23 +166,15 @@ void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) 
 
 } // namespace
 
-TaperedUnion ModelFile::tapered() const {
-  TaperedUnion bodies(model);
-  for (std::size_t i = 0; i < std::min(tapers.size(), bodies.size()); ++i) {
-    bodies.parts[i].kx = tapers[i][0];
-    bodies.parts[i].ky = tapers[i][1];
-  }
-  return bodies;
-}
-
 std::string toJson(const ModelFile& file, int indent) {
   Json parts = Json::array();
   for (std::size_t i = 0; i < file.model.size(); ++i)
     parts.push_back(
         partToJson(file.model.parts[i],
-                   i < file.tapers.size() ? file.tapers[i] : Taper{},
                    i < file.statistics.size() ? file.statistics[i] : PartStatistics()));
-  const bool tapered = std::any_of(file.tapers.begin(), file.tapers.end(), isTapered);
+  const bool tapered = std::any_of(file.model.parts.begin(),
+                                   file.model.parts.end(),
+                                   [](const Superquadric& s) { return s.isTapered(); });
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
     timings[stage] = ms;
@@ -226,13 +199,10 @@ std::string toJson(const ModelFile& file, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-bool fromJson(const std::string& text,
-              ModelFile& file,
-              std::string* why,
-              TaperedParts tapered_parts) {
+bool fromJson(const std::string& text, ModelFile& file, std::string* why) {
   file = {};
   try {
-    read(text, file, tapered_parts);
+    read(text, file);
     return true;
   } catch (const Refusal& refusal) {
     if (why)

@@ -4,8 +4,6 @@
 #include "pcl_sq/line_intersection.h"
 #include "support_cost.h"
 #include "support_problem.h"
-#include "taper_line.h"
-#include "taper_row.h"
 
 #include <algorithm>
 
@@ -62,46 +60,20 @@ struct Covered {
 };
 
 /** \brief A point of a ray well inside a body. \return false if the ray misses it */
-bool insideOnRay(const TaperedSuperquadric& body,
+bool insideOnRay(const Superquadric& body,
                  const Eigen::Vector3d& from,
                  const Eigen::Vector3d& ray,
                  Eigen::Vector3d& inside) {
-  double at;
-  if (body.isTapered()) {
-    if (!(smallestGauge(body, from, ray, at) < 1.0))
-      return false;
-  } else {
-    LineInterval chord;
-    if (!intersectLineBox(body.shape, from, ray, chord) ||
-        !intersectLine(body.shape, from, ray, chord))
-      return false;
-    // the middle of the chord lies about where the ray comes nearest to the centre
-    at = 0.5 * (chord.enter + chord.leave);
-  }
-  inside = from + at * ray;
+  LineInterval chord;
+  if (!intersectLineBox(body, from, ray, chord) ||
+      !intersectLine(body, from, ray, chord))
+    return false;
+  // the middle of the chord lies about where the ray comes nearest to the centre
+  inside = from + 0.5 * (chord.enter + chord.leave) * ray;
   return true;
 }
 
-/** \brief Direction in which a body's gauge grows at a point. */
-Eigen::Vector3d outwards(const TaperedSuperquadric& body,
-                         const Eigen::Vector3d& point) {
-  Eigen::Vector3d inwards;
-  if (body.isTapered())
-    inwards = taperLogGauge(body, point).derivatives.head<3>();
-  else
-    inwards = body.shape.logGaugeJacobian(point).head<3>();
-  return body.shape.rotation * -inwards;
-}
-
-/** \brief How far a body reaches beyond a plane [m]. */
-double beyond(const SupportPlane& plane, const TaperedSuperquadric& body) {
-  return body.isTapered() ? plane.normal.dot(body.shape.center) +
-                                body.support(plane.normal) - plane.offset
-                          : plane.residual(body.shape);
-}
-
-Covered coveredFreePixels(const PieceContext& context,
-                          const TaperedSuperquadric& body) {
+Covered coveredFreePixels(const PieceContext& context, const Superquadric& body) {
   const ObservedObject& o = context.observed;
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
@@ -112,25 +84,24 @@ Covered coveredFreePixels(const PieceContext& context,
     if (!insideOnRay(body, o.camera.center, ray, inside))
       continue;
     SupportPlane limit;
-    limit.normal = outwards(body, inside);
+    limit.normal = body.rotation * -body.logGaugeJacobian(inside).head<3>();
     limit.normal -= limit.normal.dot(ray) * ray;
     if (!(limit.normal.norm() > 1e-9))
       continue;
     limit.normal.normalize();
     limit.offset = limit.normal.dot(inside);
     limit.sigma = sigma / std::sqrt(o.free_weight);
-    const double z = beyond(limit, body) / sigma;
+    const double z = limit.residual(body) / sigma;
     covered.cost += o.free_weight * std::min(z * z, MAX_COST);
     covered.limits.push_back(limit);
   }
   return covered;
 }
 
-double hingeCost(const std::vector<SupportPlane>& limits,
-                 const TaperedSuperquadric& body) {
+double hingeCost(const std::vector<SupportPlane>& limits, const Superquadric& body) {
   double cost = 0.0;
   for (const SupportPlane& limit : limits)
-    cost += std::pow(std::max(0.0, beyond(limit, body)) / limit.sigma, 2);
+    cost += std::pow(std::max(0.0, limit.residual(body)) / limit.sigma, 2);
   return cost;
 }
 
@@ -197,16 +168,6 @@ Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& col
   for (std::size_t i = 0; i < columns.size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) = context.observed.points.col(columns[i]);
   return points;
-}
-
-TaperedSuperquadric bodyOf(const SupportFit& fit) {
-  TaperedSuperquadric body;
-  const ShapeCandidate& chosen = fit.chosen;
-  const bool tapered = chosen.shape == ShapeClass::TAPERED;
-  body.shape = tapered ? chosen.model : fit.fit.model;
-  body.kx = tapered ? chosen.kx : 0.0;
-  body.ky = tapered ? chosen.ky : 0.0;
-  return body;
 }
 
 Piece wholePiece(const PieceContext& context) {
@@ -304,7 +265,7 @@ void fitPiece(const PieceContext& context,
   if (effort == Effort::QUICK)
     options.starts = QUICK_STARTS;
   if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
-    options.start = piece.fit.fit.model;
+    options.start = piece.fit.straight();
   SupportEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
@@ -318,7 +279,7 @@ void fitPiece(const PieceContext& context,
     assessed.fit = std::move(fit);
     if (!assessed.fit.fit.ok())
       return assessed;
-    assessed.covered = coveredFreePixels(context, bodyOf(assessed.fit)).cost;
+    assessed.covered = coveredFreePixels(context, assessed.fit.fit.model).cost;
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
@@ -332,12 +293,12 @@ void fitPiece(const PieceContext& context,
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
     if (!coversFreePixels(best))
       break;
-    const Covered covered = coveredFreePixels(context, bodyOf(best.fit));
+    const Covered covered = coveredFreePixels(context, best.fit.fit.model);
     SupportEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
-    options.start = best.fit.fit.model;
+    options.start = best.fit.straight();
     SupportFit next = fitSupports(points, more, options);
-    const double hinges = hingeCost(covered.limits, bodyOf(next));
+    const double hinges = hingeCost(covered.limits, next.fit.model);
     Piece assessed = assess(std::move(next), hinges);
     if (!(assessed.score < best.score))
       break;

@@ -39,9 +39,6 @@ struct PieceContext {
 /** \brief Observed points. */
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns);
 
-/** \brief The body a fit has chosen, tapered or not. */
-TaperedSuperquadric bodyOf(const SupportFit& fit);
-
 /** \brief The whole object as one piece. */
 Piece wholePiece(const PieceContext& context);
 

@@ -25,13 +25,14 @@ bool apartByFaces(const OrientedBox& box,
                   double clearance,
                   Eigen::Index& axis) {
   const Eigen::Matrix3d size = (box.rotation.transpose() * s.rotation).cwiseAbs();
+  const Eigen::Vector3d half = s.halfSizes();
   const Eigen::Vector3d offset = s.center - box.center;
   const Eigen::Array3d gaps = (box.rotation.transpose() * offset).cwiseAbs().array() -
-                              (box.half_sizes + size * s.semi_axes).array();
+                              (box.half_sizes + size * half).array();
   if (gaps.maxCoeff(&axis) > clearance)
     return true;
   return ((s.rotation.transpose() * offset).cwiseAbs().array() >
-          (s.semi_axes + size.transpose() * box.half_sizes).array() + clearance)
+          (half + size.transpose() * box.half_sizes).array() + clearance)
       .any();
 }
 
@@ -115,7 +116,8 @@ bool collides(const OrientedBox& box,
   Eigen::Vector3d n = box.rotation.col(axis);
   if (n.dot(superquadric.center - box.center) < 0.0)
     n = -n;
-  if (n.dot(superquadric.center) - superquadric.support(n) - box.support(n) > clearance)
+  if (n.dot(superquadric.center) - superquadric.support(-n) - box.support(n) >
+      clearance)
     return false;
   if (superquadric.gauge(nearest(box, superquadric.center)) <= 1.0)
     return true;

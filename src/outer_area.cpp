@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "all_round.h"
 
-#include "gauge.h"
 #include "pcl_sq/fit_superquadric.h"
+#include "taper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,23 +20,7 @@ struct SurfaceCells {
   Eigen::ArrayXd areas{8 * OCTANT};
 };
 
-/** \brief By how much tapering enlarges a small piece of the surface: its area vector
- * is transformed by the cofactors of the taper's derivative. */
-double enlargement(const TaperedSuperquadric& body, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d p = body.shape.toLocal(point);
-  const Eigen::Vector3d n =
-      body.shape.rotation.transpose() * body.shape.gaugeGradient(point).normalized();
-  const double a3 = body.shape.semi_axes.z();
-  const double fx = 1.0 + body.kx * p.z() / a3, fy = 1.0 + body.ky * p.z() / a3;
-  return Eigen::Vector3d(n.x() * fy,
-                         n.y() * fx,
-                         n.z() * fx * fy - n.x() * body.kx * p.x() * fy / a3 -
-                             n.y() * body.ky * p.y() * fx / a3)
-      .norm();
-}
-
-SurfaceCells surfaceCells(const TaperedSuperquadric& body) {
-  const Superquadric& part = body.shape;
+SurfaceCells surfaceCells(const Superquadric& part) {
   SurfaceCells cells;
   const double volume = part.semi_axes.prod() / (CELLS * CELLS);
   for (int c = 0; c < OCTANT; ++c) {
@@ -51,16 +35,18 @@ SurfaceCells surfaceCells(const TaperedSuperquadric& body) {
     // of the cube; cut off at gauge one, its area vector is volume * grad G / G^3
     const double shrink = std::exp(-g.value);
     const double area = volume * shrink * shrink * logGaugeGradient(g, local).norm();
+    const Eigen::Vector3d normal = logGaugeGradient(g, local).normalized();
     for (int octant = 0; octant < 8; ++octant) {
       const Eigen::Vector3d sign(
           octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
-      const Eigen::Vector3d middle = part.toWorld(shrink * local.cwiseProduct(sign));
-      cells.middles.col(8 * c + octant) = middle;
-      cells.areas[8 * c + octant] = area;
-      if (body.isTapered()) {
-        cells.middles.col(8 * c + octant) = body.tapered(middle);
-        cells.areas[8 * c + octant] *= enlargement(body, middle);
-      }
+      const Eigen::Vector3d straight = shrink * local.cwiseProduct(sign);
+      cells.middles.col(8 * c + octant) =
+          part.toWorld(straight.cwiseProduct(growth(part, straight.z())));
+      cells.areas[8 * c + octant] =
+          part.isTapered()
+              ? area *
+                    taperedAreaVector(part, straight, normal.cwiseProduct(sign)).norm()
+              : area;
     }
   }
   return cells;
@@ -68,43 +54,28 @@ SurfaceCells surfaceCells(const TaperedSuperquadric& body) {
 
 } // namespace
 
-Eigen::VectorXd bodyDistances(const TaperedSuperquadric& body,
-                              const Eigen::Matrix3Xd& points) {
-  if (!body.isTapered())
-    return surfaceDistances(body.shape, points);
-  Eigen::VectorXd distances(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    distances[i] = body.footPointDistance(points.col(i));
-  return distances;
-}
-
-void keepNearer(const TaperedSuperquadric& body,
+void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,
                 const Eigen::ArrayXd& reach,
                 Eigen::VectorXd& distances) {
-  if (body.isTapered()) { // may stick out of the box of its shape
-    distances = distances.cwiseMin(bodyDistances(body, points));
-    return;
-  }
-  const Eigen::Matrix3d turn = body.shape.rotation.transpose();
+  const Eigen::Matrix3d turn = body.rotation.transpose();
   std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d local = turn * (points.col(i) - body.shape.center);
-    const Eigen::Vector3d outside =
-        (local.cwiseAbs() - body.shape.semi_axes).cwiseMax(0.0);
+    const Eigen::Vector3d local = turn * (points.col(i) - body.center);
+    const Eigen::Vector3d outside = (local.cwiseAbs() - body.halfSizes()).cwiseMax(0.0);
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
   }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)
     nearby.col(static_cast<Eigen::Index>(k)) = points.col(near[k]);
-  const Eigen::VectorXd found = surfaceDistances(body.shape, nearby);
+  const Eigen::VectorXd found = surfaceDistances(body, nearby);
   for (std::size_t k = 0; k < near.size(); ++k)
     distances[near[k]] =
         std::min(distances[near[k]], found[static_cast<Eigen::Index>(k)]);
 }
 
-double outerArea(const std::vector<TaperedSuperquadric>& parts) {
+double outerArea(const std::vector<Superquadric>& parts) {
   double sum = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const SurfaceCells cells = surfaceCells(parts[k]);

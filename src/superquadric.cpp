@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/superquadric.h"
 
-#include "gauge.h"
+#include "taper.h"
 
 #include <limits>
 
@@ -10,16 +10,13 @@ namespace pcl_sq {
 namespace {
 
 using detail::LogGauge;
+using detail::Place;
 
 constexpr double HUGE_VALUE = std::numeric_limits<double>::max();
 
 /** \brief exp() that saturates at the largest double instead of overflowing. */
 double saturatedExp(double x) {
   return x > 709.0 ? HUGE_VALUE : std::exp(x);
-}
-
-double beta(double x, double y) { // std::tgamma, not lgamma, which writes a global
-  return std::tgamma(x) * std::tgamma(y) / std::tgamma(x + y);
 }
 
 /** \brief Exponents with which the dual body is evaluated: e' = 2 - e. */
@@ -55,6 +52,9 @@ bool Superquadric::isValid(std::string* why) const {
   for (const double epsilon : {epsilon1, epsilon2})
     if (epsilon < MIN_EPSILON || epsilon > MAX_EPSILON)
       return fail("an exponent is outside [0.05, 2]");
+  for (const double taper : {kx, ky})
+    if (!(std::abs(taper) <= MAX_TAPER))
+      return fail("a taper is outside [-0.95, 0.95]");
   const Eigen::Matrix3d gram = rotation.transpose() * rotation;
   if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 ||
       rotation.determinant() <= 0.0)
@@ -63,17 +63,16 @@ bool Superquadric::isValid(std::string* why) const {
 }
 
 double Superquadric::insideOutside(const Eigen::Vector3d& point) const {
-  const LogGauge g = detail::logGauge(toLocal(point), semi_axes, epsilon1, epsilon2);
-  return saturatedExp(2.0 / epsilon1 * g.value);
+  return saturatedExp(2.0 / epsilon1 *
+                      detail::placeOf(*this, toLocal(point)).gauge.value);
 }
 
 Eigen::Vector3d
 Superquadric::insideOutsideGradient(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d local = toLocal(point);
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  const double f = saturatedExp(2.0 / epsilon1 * g.value);
+  const Place place = detail::placeOf(*this, toLocal(point));
+  const double f = saturatedExp(2.0 / epsilon1 * place.gauge.value);
   const Eigen::Vector3d gradient =
-      rotation * ((2.0 / epsilon1) * detail::logGaugeGradient(g, local));
+      rotation * ((2.0 / epsilon1) * detail::logGradient(*this, place));
   return (f * gradient).cwiseMax(-HUGE_VALUE).cwiseMin(HUGE_VALUE);
 }
 
@@ -81,29 +80,17 @@ double Superquadric::gauge(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
   if (local.isZero(0.0))
     return 0.0;
-  return std::exp(detail::logGauge(local, semi_axes, epsilon1, epsilon2).value);
+  return std::exp(detail::placeOf(*this, local).gauge.value);
 }
 
 Eigen::Vector3d Superquadric::gaugeGradient(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d local = toLocal(point);
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  return rotation * (std::exp(g.value) * detail::logGaugeGradient(g, local));
+  const Place place = detail::placeOf(*this, toLocal(point));
+  return rotation * (std::exp(place.gauge.value) * detail::logGradient(*this, place));
 }
 
 SuperquadricCoefficients
 Superquadric::logGaugeJacobian(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d local = toLocal(point);
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  const Eigen::Vector3d gradient = detail::logGaugeGradient(g, local);
-  SuperquadricCoefficients jacobian;
-  jacobian.segment<3>(0) = -gradient;
-  jacobian.segment<3>(3) = gradient.cross(local);
-  jacobian[6] = -g.outer_h * g.inner_x;
-  jacobian[7] = -g.outer_h * g.inner_y;
-  jacobian[8] = -g.outer_z;
-  jacobian[9] = 0.5 * g.outer_entropy;
-  jacobian[10] = 0.5 * g.outer_h * g.inner_entropy;
-  return jacobian;
+  return detail::logGaugeRow(*this, point).derivatives.head<11>();
 }
 
 Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) const {
@@ -111,30 +98,36 @@ Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) con
   if (local.isZero(0.0)) {
     Eigen::Index shortest;
     const double length = semi_axes.minCoeff(&shortest);
-    return center + length * rotation.col(shortest);
+    return toWorld(length * Eigen::Vector3d::Unit(shortest));
   }
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  return toWorld(local * std::exp(-g.value));
+  const Place place = detail::placeOf(*this, local);
+  const Eigen::Vector3d straight = place.straight * std::exp(-place.gauge.value);
+  return toWorld(straight.cwiseProduct(detail::growth(*this, straight.z())));
 }
 
 double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
   if (local.isZero(0.0))
     return -semi_axes.minCoeff();
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  return -local.norm() * std::expm1(-g.value); // |y| (1 - 1/G)
+  const Place place = detail::placeOf(*this, local);
+  if (!isTapered())
+    return -local.norm() * std::expm1(-place.gauge.value); // |y| (1 - 1/G)
+  const double distance = (local - detail::radiallyProjected(*this, place).at).norm();
+  return std::copysign(distance, place.gauge.value);
 }
 
 double Superquadric::firstOrderDistance(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
-  const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
-  const double slope = detail::logGaugeGradient(g, local).norm(); // |grad G| / G
+  const Place place = detail::placeOf(*this, local);
+  const double slope = detail::logGradient(*this, place).norm(); // |grad G| / G
   if (!(slope > 0.0) || local.isZero(0.0))
     return -semi_axes.minCoeff();
-  return -std::expm1(-g.value) / slope;
+  return -std::expm1(-place.gauge.value) / slope;
 }
 
 double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
+  if (isTapered())
+    return detail::footPointRow(*this, point).value;
   const Eigen::Vector3d local = toLocal(point);
   const double radial = radialDistance(point);
   const LogGauge g = detail::logGauge(local, semi_axes, epsilon1, epsilon2);
@@ -169,11 +162,15 @@ Eigen::Vector3d Superquadric::normal(const Eigen::Vector3d& point) const {
 
 double Superquadric::support(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
+  if (isTapered())
+    return detail::taperedSupport(*this, u);
   return u.isZero(0.0) ? 0.0 : std::exp(logSupport(*this, u).value);
 }
 
 Eigen::Vector3d Superquadric::supportPoint(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
+  if (isTapered())
+    return toWorld(detail::taperedSupportPoint(*this, u));
   return toWorld(contactPoint(logSupport(*this, u), u));
 }
 
@@ -185,6 +182,11 @@ Superquadric::supportJacobian(const Eigen::Vector3d& direction) const {
 
 SuperquadricCoefficients Superquadric::supportJacobian(const Eigen::Vector3d& direction,
                                                        double& support) const {
+  if (isTapered()) {
+    const detail::BodyRow row = detail::supportRow(*this, direction);
+    support = row.value - direction.dot(center);
+    return row.derivatives.head<11>();
+  }
   const Eigen::Vector3d u = rotation.transpose() * direction;
   const LogGauge g = logSupport(*this, u);
   const double h = std::exp(g.value);
@@ -200,27 +202,12 @@ SuperquadricCoefficients Superquadric::supportJacobian(const Eigen::Vector3d& di
 }
 
 Eigen::AlignedBox3d Superquadric::boundingBox() const {
-  const Eigen::Vector3d half(support(Eigen::Vector3d::UnitX()),
-                             support(Eigen::Vector3d::UnitY()),
-                             support(Eigen::Vector3d::UnitZ()));
-  return {center - half, center + half};
-}
-
-double Superquadric::volume() const {
-  return 2.0 * semi_axes.prod() * epsilon1 * epsilon2 *
-         beta(0.5 * epsilon1 + 1.0, epsilon1) * beta(0.5 * epsilon2, 0.5 * epsilon2);
-}
-
-Eigen::Matrix3d Superquadric::inertia() const {
-  const double e1 = epsilon1, e2 = epsilon2;
-  const Eigen::Vector3d a2 = semi_axes.cwiseAbs2();
-  const double scale = 0.5 * semi_axes.prod() * e1 * e2;
-  const double across = beta(1.5 * e2, 0.5 * e2) * beta(0.5 * e1, 2.0 * e1 + 1.0);
-  const double along = 4.0 * beta(0.5 * e2, 0.5 * e2 + 1.0) * beta(1.5 * e1, e1 + 1.0);
-  const Eigen::Vector3d moments(a2.y() * across + a2.z() * along,
-                                a2.x() * across + a2.z() * along,
-                                (a2.x() + a2.y()) * across);
-  return rotation * (scale * moments).asDiagonal() * rotation.transpose();
+  Eigen::Vector3d above, below;
+  for (int k = 0; k < 3; ++k) {
+    above[k] = support(Eigen::Vector3d::Unit(k));
+    below[k] = isTapered() ? support(-Eigen::Vector3d::Unit(k)) : above[k];
+  }
+  return {center - below, center + above};
 }
 
 SuperquadricCoefficients Superquadric::toCoefficients() const {

@@ -119,9 +119,7 @@ SupportFit fitSupports(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     }
   result.noise = general.front().sigma * problem.frame().scale;
   FitSummary& fit = result.fit;
-  for (auto c = result.candidates.rbegin(); c != result.candidates.rend(); ++c)
-    if (c->shape != ShapeClass::TAPERED)
-      fit.model = c->model;
+  fit.model = result.chosen.model;
   fit.termination = general.front().termination;
   fit.points = problem.all().size();
   fit.sigma = result.noise;
@@ -137,6 +135,14 @@ void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& 
 }
 
 } // namespace detail
+
+const Superquadric& SupportFit::straight() const {
+  const auto found =
+      std::find_if(candidates.begin(), candidates.end(), [](const auto& c) {
+        return c.shape != ShapeClass::TAPERED;
+      });
+  return found == candidates.end() ? fit.model : found->model;
+}
 
 const char* toString(ShapeClass shape) {
   switch (shape) {

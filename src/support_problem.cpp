@@ -172,7 +172,7 @@ double SupportProblem::sigmaOf(const Trial& trial, const UnitPoints& points) con
   o.residual = kernels::Residual::FOOT_POINT;
   o.sigma = trial.sigma;
   o.outlier = OUTLIER;
-  const NormalEquations e = normalEquations(points, trial.model, o);
+  const NormalEquations e = sumsOf<11>(points, trial.model, o);
   return std::max(1e-4, std::sqrt(e.weighted / std::max(e.share, 1.0)));
 }
 

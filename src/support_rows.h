@@ -11,13 +11,13 @@ namespace pcl_sq::detail {
 /** \brief A plane's residual normal . center + h(normal) - offset, and its derivatives.
  */
 template <int N>
-struct SupportRow {
+struct PlaneRow {
   double reach = 0.0; ///< normal . center + h(normal)
   Eigen::Matrix<double, N, 1> derivatives;
 };
 
 /** \brief Adds the cost and its Gauss-Newton model to sums with jtj, jtr and cost.
- * \param[in] row direction -> SupportRow<N> \param[in] reach direction -> reach alone
+ * \param[in] row direction -> PlaneRow<N> \param[in] reach direction -> reach alone
  */
 template <int N, typename Sums, typename Row, typename Reach>
 void addSupportCost(const SupportCost& c, const Row& row, const Reach& reach, Sums& e) {
@@ -31,7 +31,7 @@ void addSupportCost(const SupportCost& c, const Row& row, const Reach& reach, Su
   double sum = 0.0, precision = 0.0;
   for (const SupportPlane& plane : c.silhouette) {
     const double weight = c.unit / plane.sigma;
-    const SupportRow<N> r = row(plane.normal);
+    const PlaneRow<N> r = row(plane.normal);
     const Vector weighted = weight * r.derivatives;
     const double z = weight * (r.reach - plane.offset);
     add(weighted, z);
@@ -47,13 +47,13 @@ void addSupportCost(const SupportCost& c, const Row& row, const Reach& reach, Su
   }
   for (const SupportPlane& plane : c.tangents) {
     const double weight = c.unit / plane.sigma;
-    const SupportRow<N> r = row(plane.normal);
+    const PlaneRow<N> r = row(plane.normal);
     add(weight * r.derivatives, weight * (r.reach - plane.offset));
   }
   for (const SupportPlane& plane : c.limits)
     if (reach(plane.normal) > plane.offset) {
       const double weight = c.unit / plane.sigma;
-      const SupportRow<N> r = row(plane.normal);
+      const PlaneRow<N> r = row(plane.normal);
       add(weight * r.derivatives, weight * (r.reach - plane.offset));
     }
   if (!(c.half_width > 0.0))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
 #include "shape_spaces.h"
-#include "tapered_support.h"
+#include "support_problem.h"
+#include "support_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,112 @@ constexpr double WORTH_A_FIT = 0.5 * TAPER;
 constexpr double MISFIT = 1.3;
 constexpr double WIDE = 0.03;   ///< sigma of that search, in the points' deviation
 constexpr std::size_t KEPT = 2; ///< starts of it that are refined
+constexpr int ITERATIONS = 20;
+
+/** \brief Where a taper is tried from. */
+struct TaperStart {
+  ShapeCandidate from;                     ///< its model with the axis along z
+  ShapeClass family = ShapeClass::GENERIC; ///< that is tapered
+  Basis<13> basis;   ///< directions in which it may move, those of the taper last
+  int taper = 2;     ///< columns of it
+  double gain = 0.0; ///< by the taper, as far as one Gauss-Newton step can tell
+};
+
+/** \brief A family's space with the taper's columns behind it. */
+Basis<13> withTaper(const ParameterSpace& space, bool round) {
+  const Eigen::Index own = space.basis.cols(), taper = round ? 1 : 2;
+  Basis<13> basis = Basis<13>::Zero(13, own + taper);
+  basis.topLeftCorner(11, own) = space.basis;
+  basis(11, own) = 1.0;
+  basis(12, own + taper - 1) = 1.0;
+  return basis;
+}
+
+/** \brief A candidate with its axis \a k as z, and how it may move. */
+TaperStart taperStart(const SupportProblem& problem, const ShapeCandidate& c, int k) {
+  TaperStart start;
+  start.from = c;
+  start.family = c.shape == ShapeClass::TAPERED ? c.before : c.shape;
+  const bool round = start.family == ShapeClass::ROTATIONAL;
+  start.from.model = withAxis(c.model, k);
+  start.taper = round ? 1 : 2;
+  ParameterSpace space = spaceOf(start.family);
+  for (int axis = 0; axis < 3 && c.upright; ++axis)
+    if (std::abs(start.from.model.rotation.col(axis).dot(problem.up())) > UPRIGHT)
+      space = standing(space, axis);
+  start.basis = withTaper(space, round);
+  return start;
+}
+
+/** \brief Least squares over the parameters of a tapered body. */
+class TaperedFamily {
+public:
+  /** \param[in] points of the problem or fewer; kept by reference
+   * \param[in] sigma of the points */
+  TaperedFamily(const SupportProblem& problem, const UnitPoints& points, double sigma)
+      : problem_(problem), points_(points), limits_(problem.limits(sigma)),
+        planes_(problem.planes(sigma, points)),
+        contributor_([this](const Superquadric& body, SquareSums<13>& sums) {
+          const auto row = [&](const Eigen::Vector3d& n) {
+            const BodyRow r = supportRow(body, n);
+            return PlaneRow<13>{r.value, r.derivatives};
+          };
+          const auto reach = [&](const Eigen::Vector3d& n) {
+            return n.dot(body.center) + body.support(n);
+          };
+          addSupportCost<13>(planes_, row, reach, sums);
+        }) {
+    limits_.max_iterations = ITERATIONS;
+  }
+  TaperedFamily(const TaperedFamily&) = delete;
+  TaperedFamily& operator=(const TaperedFamily&) = delete;
+
+  /** \brief What the taper's directions add to the gain that a Gauss-Newton step
+   * promises (Rao's score test). */
+  double gainOf(const TaperStart& start) const {
+    const PointsProblem<13> squares{points_, limits_, contributor_};
+    const SquareSums<13> sums = squares.evaluate(start.from.model);
+    const int all = static_cast<int>(start.basis.cols());
+    const auto promised = [&](int columns) {
+      constexpr double DAMPING = 1e-3;
+      const auto used = start.basis.leftCols(columns);
+      Matrix13 jtj = Matrix13::Zero();
+      Vector13 jtr = Vector13::Zero(), step = Vector13::Zero();
+      jtj.topLeftCorner(columns, columns) = used.transpose() * sums.jtj * used;
+      jtr.head(columns) = used.transpose() * sums.jtr;
+      bool frozen[13] = {};
+      for (int i = 0; i < columns; ++i)
+        frozen[i] = squares.leadsOut(start.from.model, -jtr[i] * used.col(i));
+      if (!dampedSolve<13>(jtj, jtr, columns, frozen, DAMPING, step))
+        return 0.0;
+      const double gain = -jtr.head(columns).dot(step.head(columns));
+      return std::max(gain, 0.0) / (planes_.unit * planes_.unit);
+    };
+    return promised(all) - promised(all - start.taper);
+  }
+  ShapeCandidate fit(const TaperStart& start) const {
+    const auto found =
+        fitTaperedBody(points_, start.from.model, start.basis, limits_, contributor_);
+    ShapeCandidate c;
+    c.shape = ShapeClass::TAPERED;
+    c.before = start.family;
+    c.upright = start.from.upright;
+    c.parameters = static_cast<int>(start.basis.cols());
+    c.cost = found.equations.cost / (planes_.unit * planes_.unit);
+    c.bic = c.cost + c.parameters * std::log(problem_.observations()) + TAPER;
+    c.model = found.model;
+    return c;
+  }
+
+private:
+  using Matrix13 = Eigen::Matrix<double, 13, 13>;
+
+  const SupportProblem& problem_;
+  const UnitPoints& points_;
+  LmOptions limits_;
+  SupportCost planes_;
+  ContributorOf<13> contributor_;
+};
 
 /** \brief The solid of revolution most like a tapered body. */
 ShapeCandidate rounded(ShapeCandidate c) {
@@ -25,7 +132,7 @@ ShapeCandidate rounded(ShapeCandidate c) {
   c.model.semi_axes.head<2>().setConstant(
       std::sqrt(c.model.semi_axes.x() * c.model.semi_axes.y()));
   c.model.epsilon2 = 1.0;
-  c.kx = c.ky = 0.5 * (c.kx + c.ky);
+  c.model.kx = c.model.ky = 0.5 * (c.model.kx + c.model.ky);
   return c;
 }
 
@@ -33,7 +140,7 @@ ShapeCandidate rounded(ShapeCandidate c) {
 ShapeCandidate bevelled(ShapeCandidate c) {
   c.before = ShapeClass::GENERIC;
   c.model = dual(c.model);
-  c.kx = c.ky = 0.5 * (c.kx + c.ky);
+  c.model.kx = c.model.ky = 0.5 * (c.model.kx + c.model.ky);
   return c;
 }
 
@@ -46,7 +153,7 @@ ShapeCandidate standingUp(ShapeCandidate c, const Eigen::Vector3d& up) {
 
 /** \brief Tapered bodies from the search's own starts, the best few. */
 std::vector<ShapeCandidate> searchTapers(const SupportProblem& problem) {
-  const TaperedSupport rough(
+  const TaperedFamily rough(
       problem, problem.coarse(), std::max(WIDE, 2.0 * problem.noise()));
   std::vector<ShapeCandidate> candidates;
   for (const Superquadric& start : supportStarts(problem)) {
@@ -82,8 +189,8 @@ std::optional<ShapeCandidate> fitTaper(const SupportProblem& problem,
     if (!of_kind || c.bic < of_kind->bic)
       of_kind = &c;
   }
-  const TaperedSupport quick(problem, problem.coarse(), sigma);
-  const TaperedSupport thorough(problem, problem.medium(), sigma);
+  const TaperedFamily quick(problem, problem.coarse(), sigma);
+  const TaperedFamily thorough(problem, problem.medium(), sigma);
   const double observations = problem.observations();
   const double inflation = std::max(1.0, least / observations);
   std::optional<ShapeCandidate> found;
@@ -128,12 +235,10 @@ void fitTaperAllPoints(const SupportProblem& problem,
                        double sigma,
                        ShapeCandidate& chosen) {
   const ShapeCandidate fitted =
-      TaperedSupport(problem, problem.all(), sigma).fit(taperStart(problem, chosen, 2));
+      TaperedFamily(problem, problem.all(), sigma).fit(taperStart(problem, chosen, 2));
   chosen.bic += fitted.cost - chosen.cost; // which may be scaled by the misfit
   chosen.cost = fitted.cost;
   chosen.model = fitted.model;
-  chosen.kx = fitted.kx;
-  chosen.ky = fitted.ky;
 }
 
 } // namespace pcl_sq::detail

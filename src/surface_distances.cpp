@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/fit_superquadric.h"
 #include "point_set.h"
-#include "unit_frame.h"
+#include "taper.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,7 +20,7 @@ Eigen::VectorXd distancesTo(const Superquadric& superquadric, const Points& poin
   frame.origin = superquadric.center;
   frame.scale = superquadric.semi_axes.maxCoeff();
   const double per_unit = 1.0 / frame.scale;
-  const kernels::Shape shape = detail::toShape(frame.toUnit(superquadric));
+  const Superquadric body = frame.toUnit(superquadric);
   detail::UnitPoints unit;
   unit.reserve(static_cast<std::size_t>(std::min(CHUNK, points.cols())));
   std::vector<float> residuals(CHUNK);
@@ -39,8 +39,7 @@ Eigen::VectorXd distancesTo(const Superquadric& superquadric, const Points& poin
                std::clamp(f[1], -FAR, FAR),
                std::clamp(f[2], -FAR, FAR));
     }
-    kernels::kernels().residuals(
-        unit.view(), shape, kernels::Residual::FOOT_POINT, residuals.data());
+    detail::residualsOf(body, unit, kernels::Residual::FOOT_POINT, residuals.data());
     for (Eigen::Index i = 0; i < count; ++i)
       distances[first + i] +=
           frame.scale * double(residuals[static_cast<std::size_t>(i)]);

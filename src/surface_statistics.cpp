@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_statistics.h"
 
-#include "unit_frame.h"
+#include "taper.h"
 
 #include <cmath>
 #include <limits>
@@ -38,13 +38,12 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
   if (model.empty())
     return statistics;
   const UnitFrame frame = frameOf(model);
-  std::vector<kernels::Shape> shapes;
+  std::vector<Superquadric> bodies;
   std::vector<double> factors; // sqrt(a1 a2 a3), Eq. (7)
   for (const Superquadric& part : model.parts) {
-    shapes.push_back(toShape(frame.toUnit(part)));
+    bodies.push_back(frame.toUnit(part));
     factors.push_back(std::sqrt(part.semi_axes.prod()));
   }
-  const kernels::Kernels& loops = kernels::kernels();
   std::vector<float> relative, nearest, metric, nearest_metric;
   std::vector<double> nearest_factor;
   double distortion = 0.0, squares = 0.0;
@@ -59,16 +58,14 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
     nearest.assign(n, std::numeric_limits<float>::infinity());
     nearest_metric.assign(n, std::numeric_limits<float>::infinity());
     nearest_factor.assign(n, 0.0);
-    for (std::size_t k = 0; k < shapes.size(); ++k) {
-      loops.residuals(
-          chunk.view(), shapes[k], kernels::Residual::GAUGE, relative.data());
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      residualsOf(bodies[k], chunk, kernels::Residual::GAUGE, relative.data());
       for (std::size_t i = 0; i < n; ++i)
         if (std::abs(relative[i]) < std::abs(nearest[i])) {
           nearest[i] = relative[i];
           nearest_factor[i] = factors[k];
         }
-      loops.residuals(
-          chunk.view(), shapes[k], kernels::Residual::FOOT_POINT, metric.data());
+      residualsOf(bodies[k], chunk, kernels::Residual::FOOT_POINT, metric.data());
       keepNearest(metric, nearest_metric);
     }
     for (std::size_t i = 0; i < n; ++i) {
@@ -102,8 +99,7 @@ std::vector<double> smallestResiduals(const MultiSuperquadric& model,
   const UnitPoints unit_points = toUnit(points, frame);
   std::vector<float> values(unit_points.size() + kernels::BLOCK);
   for (const Superquadric& part : model.parts) {
-    kernels::kernels().residuals(
-        unit_points.view(), toShape(frame.toUnit(part)), residual, values.data());
+    residualsOf(frame.toUnit(part), unit_points, residual, values.data());
     for (std::size_t i = 0; i < unit_points.size(); ++i)
       smallest[i] = std::min(smallest[i], unit * double(values[i]));
   }

@@ -59,8 +59,11 @@ TriangleMesh meshSuperquadric(const Superquadric& superquadric, int divisions) {
       Eigen::Vector3d direction;
       for (int k = 0; k < 3; ++k) // equal angles on the face instead of equal lengths
         direction[k] = std::tan((2.0 * key[k] / n - 1.0) * M_PI / 4.0);
-      mesh.vertices.push_back(superquadric.radialProjection(
-          superquadric.toWorld(direction.cwiseProduct(superquadric.semi_axes))));
+      Eigen::Vector3d v =
+          superquadric.toWorld(direction.cwiseProduct(superquadric.semi_axes));
+      if (superquadric.isTapered()) // the projection takes it back first
+        v = superquadric.tapered(v);
+      mesh.vertices.push_back(superquadric.radialProjection(v));
     }
     return it->second;
   };
@@ -159,7 +162,8 @@ std::vector<Eigen::Vector3d> sampleEqualDistance(const Superquadric& superquadri
     }
   }
   for (Eigen::Vector3d& p : points) // the polyline's chords lie a little inside
-    p = superquadric.radialProjection(p);
+    p = superquadric.radialProjection(superquadric.isTapered() ? superquadric.tapered(p)
+                                                               : p);
   return points;
 }
 

@@ -2,7 +2,6 @@
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "cloud_picture.h"
 
-#include "pcl_sq/visualization/palette.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
 namespace pcl_sq::app {
@@ -22,20 +21,9 @@ void addCloud(SnapshotRenderer& renderer, const LoadedCloud& input) {
 
 std::vector<TriangleMesh> meshesOf(const ModelFile& file) {
   std::vector<TriangleMesh> meshes;
-  for (const TaperedSuperquadric& part : file.tapered().parts)
+  for (const Superquadric& part : file.model.parts)
     meshes.push_back(meshSuperquadric(part));
   return meshes;
-}
-
-void addModel(SnapshotRenderer& renderer, const ModelFile& file) {
-  if (file.tapers.empty()) {
-    renderer.addModel(file.model);
-    return;
-  }
-  constexpr double OPACITY = 0.6; // the points inside are seen
-  const std::vector<TriangleMesh> meshes = meshesOf(file);
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    renderer.addMesh(meshes[i], partColor(i), OPACITY);
 }
 
 } // namespace pcl_sq::app

@@ -14,10 +14,7 @@ namespace pcl_sq::app {
 /** \brief Puts a cloud into a picture, in its own colours if it has any. */
 void addCloud(SnapshotRenderer& renderer, const LoadedCloud& input);
 
-/** \brief Surface of each part of a model, tapered where the part is. */
+/** \brief Surface of each part of a model. */
 std::vector<TriangleMesh> meshesOf(const ModelFile& file);
-
-/** \brief Puts a model into a picture, tapered parts as their meshes. */
-void addModel(SnapshotRenderer& renderer, const ModelFile& file);
 
 } // namespace pcl_sq::app

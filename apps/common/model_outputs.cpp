@@ -47,7 +47,7 @@ void writeSnapshot(const std::string& path,
   picture.sensor = result.sensor;
   SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
-  addModel(renderer, result.file);
+  renderer.addModel(result.file.model);
   renderer.save(path);
 }
 #endif
@@ -91,8 +91,8 @@ void printSummary(const ModelResult& result) {
                 s.epsilon1,
                 s.epsilon2,
                 1e3 * statistics.rms_distance);
-    if (i < file.tapers.size())
-      std::printf("   taper %.3f %.3f", file.tapers[i][0], file.tapers[i][1]);
+    if (s.isTapered())
+      std::printf("   taper %.3f %.3f", s.kx, s.ky);
     std::printf("\n");
   }
   if (result.taper)

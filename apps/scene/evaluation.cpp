@@ -70,29 +70,18 @@ std::vector<Eigen::Vector3d> sampleMesh(const TriangleMesh& mesh, std::size_t co
   return points;
 }
 
-/** \brief Points uniform in area: of a tapered part, on its mesh and then on its
- * surface. */
-std::vector<Eigen::Vector3d> samplePart(const TaperedSuperquadric& part,
-                                        std::size_t count) {
-  if (!part.isTapered())
-    return sampleUniform(part.shape, count);
-  std::vector<Eigen::Vector3d> points = sampleMesh(meshSuperquadric(part), count);
-  for (Eigen::Vector3d& p : points)
-    p = part.radialProjection(p);
-  return points;
-}
-
 /** \brief Points of the union's surface: those of each part outside of the others. */
-std::vector<Eigen::Vector3d> sampleUnion(const TaperedUnion& model, std::size_t count) {
+std::vector<Eigen::Vector3d> sampleUnion(const MultiSuperquadric& model,
+                                         std::size_t count) {
   std::vector<double> areas;
-  for (const TaperedSuperquadric& part : model.parts)
+  for (const Superquadric& part : model.parts)
     areas.push_back(areaOf(meshSuperquadric(part)));
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   std::vector<Eigen::Vector3d> points;
   for (std::size_t k = 0; k < model.size(); ++k) {
     const auto share =
         static_cast<std::size_t>(static_cast<double>(count) * areas[k] / total);
-    for (const Eigen::Vector3d& p : samplePart(model.parts[k], share)) {
+    for (const Eigen::Vector3d& p : sampleUniform(model.parts[k], share)) {
       bool hidden = false;
       for (std::size_t j = 0; j < model.size(); ++j)
         hidden = hidden || (j != k && model.parts[j].gauge(p) < 1.0);
@@ -110,7 +99,7 @@ double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }
 
 /** \brief Shares of a box that only the model, only the shape, and both fill. */
-void measureVolumes(const TaperedUnion& model,
+void measureVolumes(const MultiSuperquadric& model,
                     const MeshBvh& mesh,
                     const ReferenceShape& shape,
                     std::size_t samples,
@@ -166,7 +155,7 @@ double axisError(const Eigen::Matrix3d& model,
   return best;
 }
 
-ShapeFigures evaluateShape(const TaperedUnion& model,
+ShapeFigures evaluateShape(const MultiSuperquadric& model,
                            const ReferenceShape& shape,
                            std::size_t samples,
                            unsigned int threads) {
@@ -187,8 +176,7 @@ ShapeFigures evaluateShape(const TaperedUnion& model,
       std::max_element(model.parts.begin(), model.parts.end(), [](auto& a, auto& b) {
         return a.volume() < b.volume();
       });
-  figures.axis_error_deg =
-      axisError(largest->shape.rotation, shape.rotation, shape.symmetry);
+  figures.axis_error_deg = axisError(largest->rotation, shape.rotation, shape.symmetry);
   const int count = threadCount(threads);
   measureVolumes(model, mesh, shape, samples, count, figures);
   figures.model_to_truth = measure(sampleUnion(model, samples), count, [&](auto& p) {
@@ -196,12 +184,12 @@ ShapeFigures evaluateShape(const TaperedUnion& model,
   });
   figures.truth_to_model =
       measure(sampleMesh(shape.mesh, samples), count, [&](auto& p) {
-        return model.distance(shape.rotation * p + shape.translation);
+        return model.euclideanDistance(shape.rotation * p + shape.translation);
       });
   return figures;
 }
 
-CloudFigures evaluateCloud(const TaperedUnion& model,
+CloudFigures evaluateCloud(const MultiSuperquadric& model,
                            const Eigen::Matrix3Xd& points,
                            unsigned int threads) {
   CloudFigures figures;
@@ -211,8 +199,8 @@ CloudFigures evaluateCloud(const TaperedUnion& model,
   list.reserve(figures.points);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     list.push_back(points.col(i));
-  figures.distance =
-      measure(list, threadCount(threads), [&](auto& p) { return model.distance(p); });
+  figures.distance = measure(
+      list, threadCount(threads), [&](auto& p) { return model.euclideanDistance(p); });
   return figures;
 }
 

@@ -3,7 +3,7 @@
 
 #include "mesh_bvh.h"
 #include "objects.h"
-#include "pcl_sq/tapered_union.h"
+#include "pcl_sq/multi_superquadric.h"
 
 #include <cstdint>
 
@@ -38,7 +38,7 @@ struct ShapeFigures {
 
 /** \brief Figures of a model against a shape; repeatable.
  * \param[in] samples points for each of volume and surfaces */
-ShapeFigures evaluateShape(const TaperedUnion& model,
+ShapeFigures evaluateShape(const MultiSuperquadric& model,
                            const ReferenceShape& shape,
                            std::size_t samples,
                            unsigned int threads = 0);
@@ -49,7 +49,7 @@ struct CloudFigures {
   double distortion_mm = 0.0; ///< D, Eq. (7), semi-axes in millimetres (Table I)
   DistanceFigures distance;   ///< from the points to the union's surface [m]
 };
-CloudFigures evaluateCloud(const TaperedUnion& model,
+CloudFigures evaluateCloud(const MultiSuperquadric& model,
                            const Eigen::Matrix3Xd& points,
                            unsigned int threads = 0);
 

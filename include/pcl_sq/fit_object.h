@@ -3,7 +3,7 @@
 
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
-#include "pcl_sq/tapered_union.h"
+#include "pcl_sq/support_fit.h"
 
 namespace pcl_sq {
 
@@ -21,13 +21,10 @@ struct PCL_SQ_EXPORTS ObjectFitOptions {
 
 /** \brief An object as a union of superquadrics. */
 struct ObjectFit {
-  MultiSuperquadric model; ///< no part of it is tapered
-  /** \brief The same with those parts tapered for which TAPERED was chosen. */
-  TaperedUnion tapered;
+  MultiSuperquadric model;
   std::vector<SupportFit> parts; ///< one per part of the model
   std::vector<int> labels;       ///< part of each observed point, -1: none
   double bic = 0.0;              ///< of the whole object
-  double single_bic = 0.0;       ///< of one superquadric
   double misfit = 0.0;           ///< cost of one superquadric per independent point
 };
 

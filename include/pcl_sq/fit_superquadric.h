@@ -14,6 +14,7 @@ enum class Termination {
   GRADIENT_TOO_SMALL,    ///< the free parameters' gradient vanished
   MAX_ITERATIONS,        ///< the iteration limit was reached
   DAMPING_TOO_LARGE,     ///< no step lowered the cost any more
+  GIVEN_UP,              ///< another fit of the same points was far better already
   TOO_FEW_POINTS,        ///< fewer finite points than the model needs
   DEGENERATE,            ///< the points span no volume (one point, a line)
   INVALID_OPTIONS        ///< an option is outside its range

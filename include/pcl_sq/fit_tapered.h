@@ -2,7 +2,6 @@
 #pragma once
 
 #include "pcl_sq/fit_superquadric.h"
-#include "pcl_sq/tapered_superquadric.h"
 
 namespace pcl_sq {
 
@@ -19,7 +18,7 @@ struct PCL_SQ_EXPORTS TaperedFit {
    * stereo, now and then favours a taper that is not there. */
   static constexpr double DEMAND = 10.0;
 
-  TaperedSuperquadric model; ///< without taper where none was chosen
+  Superquadric model; ///< without taper where none was chosen
   /** \brief By how much the taper wins, [nats]: the gain in log-likelihood less ln N
    * for the two further parameters (half of Schwarz's BIC 1978). */
   double margin = 0.0;

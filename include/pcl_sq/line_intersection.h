@@ -16,7 +16,8 @@ struct LineInterval {
  *
  * The gauge along a line is convex, so that Newton's method from outside of the
  * bounding box approaches each end from one side and a change of the slope's sign
- * before the surface proves a miss.
+ * before the surface proves a miss. A tapered body need not be convex: the interval is
+ * the piece around the deepest point of the line.
  * \param[in] direction need not be of unit length; the interval counts in its lengths
  * \param[out] interval untouched on a miss \return whether the line meets the body */
 [[nodiscard]] PCL_SQ_EXPORTS bool intersectLine(const Superquadric& superquadric,

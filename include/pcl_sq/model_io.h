@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/tapered_union.h"
+#include "pcl_sq/multi_superquadric.h"
 
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,17 +22,13 @@ struct PartStatistics {
 struct PCL_SQ_EXPORTS ModelFile {
   MultiSuperquadric model;
   std::vector<PartStatistics> statistics; ///< one per part, or empty
-  /** \brief kx, ky of each part as in TaperedSuperquadric, or empty: no taper. */
-  std::vector<std::array<double, 2>> tapers;
-  /** \brief The model with its tapers. */
-  TaperedUnion tapered() const;
-  std::string frame;               ///< name of the coordinate frame
-  double distortion = 0.0;         ///< D of the union, Eq. (7) [m^1.5]
-  double rms_distance = 0.0;       ///< of the union [m]
-  std::string input_path;          ///< file the points came from
-  std::size_t input_points = 0;    ///< points in it
-  std::size_t finite_points = 0;   ///< of them finite
-  std::string options_json = "{}"; ///< the options used, a JSON object
+  std::string frame;                      ///< name of the coordinate frame
+  double distortion = 0.0;                ///< D of the union, Eq. (7) [m^1.5]
+  double rms_distance = 0.0;              ///< of the union [m]
+  std::string input_path;                 ///< file the points came from
+  std::size_t input_points = 0;           ///< points in it
+  std::size_t finite_points = 0;          ///< of them finite
+  std::string options_json = "{}";        ///< the options used, a JSON object
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, milliseconds
   std::string extra_json = "{}"; ///< further members of the top level, a JSON object
 };
@@ -42,12 +37,6 @@ struct PCL_SQ_EXPORTS ModelFile {
  * \param[in] indent spaces per level; negative for one line */
 PCL_SQ_EXPORTS std::string toJson(const ModelFile& file, int indent = 2);
 
-/** \brief What fromJson() does with tapered parts. */
-enum class TaperedParts {
-  REFUSE, ///< for readers that look at ModelFile::model alone
-  READ    ///< for those that look at ModelFile::tapers too
-};
-
 /** \brief Reads what toJson() wrote.
  *
  * Unknown versions, non-finite numbers, exponents or axes out of range and matrices
@@ -55,9 +44,6 @@ enum class TaperedParts {
  * why the reason of a failure as a sentence (optional) \return whether the text was a
  * model */
 [[nodiscard]] PCL_SQ_EXPORTS bool
-fromJson(const std::string& text,
-         ModelFile& file,
-         std::string* why = nullptr,
-         TaperedParts tapered_parts = TaperedParts::REFUSE);
+fromJson(const std::string& text, ModelFile& file, std::string* why = nullptr);
 
 } // namespace pcl_sq

@@ -32,12 +32,9 @@ struct EstimationReport {
   VoxelLayout voxels;            ///< empty without a decomposition
   std::vector<Prism> prisms;     ///< empty without a decomposition
   std::vector<PartReport> parts; ///< one per prism; one without a decomposition
-  /** \brief The model with the parts tapered whose shape is TAPERED; as many parts as
-   * the model, none where nothing asks for tapers (SupportFitOptions::taper). */
-  TaperedUnion tapered;
-  pcl::Indices object_indices; ///< the object's points in the input cloud
-  pcl::Indices grasp_indices;  ///< those of them on the union's surface
-  ObservedObject view;         ///< what was seen (Decomposition::PARTS)
+  pcl::Indices object_indices;   ///< the object's points in the input cloud
+  pcl::Indices grasp_indices;    ///< those of them on the union's surface
+  ObservedObject view;           ///< what was seen (Decomposition::PARTS)
   /** \brief D of the union, Eq. (7), semi-axes in metres, for the object's points. */
   double distortion = 0.0;
   double rms_distance = 0.0; ///< of the object's points to the union [m]

@@ -38,8 +38,8 @@ PCL_SQ_EXPORTS TriangleMesh meshBox(const OrientedBox& box);
 
 /** \brief Distance between a box and a superquadric [m], zero where they overlap.
  *
- * Gilbert, Johnson and Keerthi's algorithm (1988) on the support functions, which both
- * have in closed form. Exact to a millionth of the distance. */
+ * Gilbert, Johnson and Keerthi's algorithm (1988) on the support functions. Exact to a
+ * millionth of the distance; of a tapered body that is not convex, to its hull. */
 PCL_SQ_EXPORTS double distance(const OrientedBox& box,
                                const Superquadric& superquadric);
 

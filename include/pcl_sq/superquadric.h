@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ using SuperquadricCoefficients = Eigen::Matrix<double, 11, 1>;
  * where F does. Every method is safe for exponents in [0.05, 2], on the axes, at the
  * centre and far away; a derivative that does not exist there is returned as its
  * zero subgradient.
+ *
+ * The cross-section may grow linearly along z (Solina & Bajcsy 1990): a cup, a
+ * lampshade, a wedge. A point (x, y, z) of the straight body then goes to
+ * \f[ \left( (k_x z / a_3 + 1)\, x,\; (k_y z / a_3 + 1)\, y,\; z \right) \f]
+ * and F and G are those at the straight place. A tapered body has no centre of symmetry
+ * and need not be convex; turned by 180 degrees about x it has the opposite taper.
  * \ingroup pcl_sq
  */
 struct PCL_SQ_EXPORTS Superquadric {
@@ -40,13 +47,27 @@ struct PCL_SQ_EXPORTS Superquadric {
   static constexpr double MIN_EPSILON = 0.05;
   /** \brief Largest exponent of a convex superquadric. */
   static constexpr double MAX_EPSILON = 2.0;
+  /** \brief Largest |kx|, |ky|; 1 would be an apex. */
+  static constexpr double MAX_TAPER = 0.95;
 
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], in the cloud's frame
   /** \brief Columns: the superquadric's axes in the cloud's frame. */
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones(); ///< a1, a2, a3 [m], positive
+  /** \brief a1, a2, a3 [m], positive; a1 and a2 are those at z = 0. */
+  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
   double epsilon1 = 1.0; ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
   double epsilon2 = 1.0; ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
+  double kx = 0.0; ///< taper: relative growth of the section's x from z = 0 to z = a3
+  double ky = 0.0; ///< and of its y; both in [-MAX_TAPER, MAX_TAPER]
+
+  /** \brief Whether the cross-section changes along z. */
+  bool isTapered() const { return kx != 0.0 || ky != 0.0; }
+  /** \brief Half the sides of a box in the own axes that holds the body [m]: the
+   * semi-axes where there is no taper. */
+  Eigen::Vector3d halfSizes() const {
+    return semi_axes.cwiseProduct(
+        Eigen::Vector3d(1.0 + std::abs(kx), 1.0 + std::abs(ky), 1.0));
+  }
 
   /** \brief Whether all numbers are finite and in range and the rotation is a rotation.
    * \param[out] why the first violation as a sentence (optional) */
@@ -61,6 +82,13 @@ struct PCL_SQ_EXPORTS Superquadric {
     return rotation * local + center;
   }
 
+  /** \brief Where the taper takes a point of the straight body; both in the cloud's
+   * frame. */
+  Eigen::Vector3d tapered(const Eigen::Vector3d& point) const;
+  /** \brief Inverse of tapered(). Beyond the apex, where there is none, the section is
+   * taken to shrink no further than at MAX_TAPER. */
+  Eigen::Vector3d untapered(const Eigen::Vector3d& point) const;
+
   /** \brief Inside-outside function F, Eq. (4); saturates at the largest double. */
   double insideOutside(const Eigen::Vector3d& point) const;
   /** \brief Gradient of F in the cloud's frame [1/m]; saturates like F. */
@@ -69,16 +97,17 @@ struct PCL_SQ_EXPORTS Superquadric {
   double gauge(const Eigen::Vector3d& point) const;
   /** \brief Gradient of G in the cloud's frame [1/m]. */
   Eigen::Vector3d gaugeGradient(const Eigen::Vector3d& point) const;
-  /** \brief Derivatives of ln G at a point for all eleven parameters.
+  /** \brief Derivatives of ln G at a point for the eleven parameters of the paper, a
+   * taper held.
    *
    * Order: t (3, moving along the superquadric's own axes), w (3, right rotation
    * R exp([w]x)), ln a1, ln a2, ln a3, e1, e2. (algorithm: chain rule over the nested
    * norm; d ln G / d epsilon is half an entropy, so no logarithm of zero appears.) */
   SuperquadricCoefficients logGaugeJacobian(const Eigen::Vector3d& point) const;
 
-  /** \brief Signed distance to the surface along the ray from the centre,
-   * |y| (1 - 1/G) [m] (Gross & Boult 1988); minus the smallest semi-axis at the centre.
-   */
+  /** \brief Signed distance to radialProjection(), |y| (1 - 1/G) [m] along the ray from
+   * the centre where there is no taper (Gross & Boult 1988); minus the smallest
+   * semi-axis at the centre. */
   double radialDistance(const Eigen::Vector3d& point) const;
   /** \brief Signed first-order distance (G - 1) / |grad G| [m] (Taubin 1991); a lower
    * bound of the Euclidean distance outside. At the centre as radialDistance(). */
@@ -93,8 +122,9 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Signed Euclidean distance to the surface [m], negative inside. */
   double euclideanDistance(const Eigen::Vector3d& point) const;
 
-  /** \brief Point of the surface on the ray from the centre through \a point; for the
-   * centre itself the end of the shortest semi-axis. */
+  /** \brief Point of the surface on the ray from the centre through \a point, of a
+   * tapered body the same before tapering; for the centre itself the end of the
+   * shortest semi-axis. */
   Eigen::Vector3d radialProjection(const Eigen::Vector3d& point) const;
   /** \brief Outward unit normal of the level surface through \a point. */
   Eigen::Vector3d normal(const Eigen::Vector3d& point) const;
@@ -102,7 +132,9 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Support function h(n) = max { n.(p - center) : p on the surface } [m].
    *
    * The dual of a superquadric is a superquadric with exponents 2 - epsilon, which
-   * gives a closed form. The width between parallel plates of unit normal n is 2 h(n).
+   * gives a closed form. A tapered body is cut into slices and h found to about 1e-9 of
+   * its size: it is the support function of the convex hull (with e2 > 1.98 that of
+   * e2 = 1.98). The width between parallel plates of unit normal n is h(n) + h(-n).
    * \param[in] direction n in the cloud's frame; h is homogeneous of degree one in it
    */
   double support(const Eigen::Vector3d& direction) const;
@@ -119,13 +151,18 @@ struct PCL_SQ_EXPORTS Superquadric {
   Eigen::AlignedBox3d boundingBox() const;
 
   /** \brief Volume 2 a1 a2 a3 e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2) [m^3]
-   * (Jaklic, Leonardis, Solina 2000). */
+   * (Jaklic, Leonardis, Solina 2000); the odd terms of a taper cancel, and kx ky times
+   * the second moment along z over a3^2 comes on top. */
   double volume() const;
-  /** \brief Moment of inertia about the centre at density one, axes of the cloud's
-   * frame [m^5] (Jaklic, Leonardis, Solina 2000). */
+  /** \brief Centre of gravity in the cloud's frame [m]: on the axis, at the centre
+   * where there is no taper. */
+  Eigen::Vector3d centerOfGravity() const;
+  /** \brief Moment of inertia about \a center at density one, axes of the cloud's frame
+   * [m^5] (Jaklic, Leonardis, Solina 2000). */
   Eigen::Matrix3d inertia() const;
 
-  /** \brief The coefficients in PCL's order; see SuperquadricCoefficients. */
+  /** \brief The coefficients in PCL's order, see SuperquadricCoefficients; they hold no
+   * taper. */
   SuperquadricCoefficients toCoefficients() const;
   /** \brief Inverse of toCoefficients(); \a coefficients must hold eleven numbers. */
   static Superquadric fromCoefficients(const SuperquadricCoefficients& coefficients);

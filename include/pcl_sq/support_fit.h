@@ -21,11 +21,11 @@ struct PCL_SQ_EXPORTS SupportEvidence {
 
 /** \brief Families of superquadrics, from many parameters to few. */
 enum class ShapeClass {
-  GENERIC,    ///< all eleven
+  GENERIC,    ///< all of the paper's eleven parameters
   ROTATIONAL, ///< solid of revolution about z: a1 = a2, e2 = 1
   BOX,        ///< e1 = e2 = 0.2
   ELLIPSOID,  ///< e1 = e2 = 1
-  TAPERED     ///< one of the above whose section grows along z, see TaperedSuperquadric
+  TAPERED     ///< one of the above whose section grows along z
 };
 
 /** \brief The value's name, as it stands in the JSON. */
@@ -39,11 +39,10 @@ struct ShapeCandidate {
   /** \brief cost / c + parameters * ln(observations); c is 1 unless the best family's
    * cost exceeds the observations, and that ratio where it does. */
   double bic = 0.0;
-  double cost = 0.0;                       ///< cost / sigma^2, points and planes
-  int parameters = 11;                     ///< free ones
-  Superquadric model;                      ///< of a TAPERED one: before tapering
-  double kx = 0.0, ky = 0.0;               ///< its taper, see TaperedSuperquadric
-  ShapeClass before = ShapeClass::GENERIC; ///< its family before tapering
+  double cost = 0.0;   ///< cost / sigma^2, points and planes
+  int parameters = 11; ///< free ones
+  Superquadric model;
+  ShapeClass before = ShapeClass::GENERIC; ///< a TAPERED one's family before tapering
 };
 
 /** \brief Settings of fitWithSupports(). */
@@ -65,8 +64,7 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   /** \brief Whether the chosen family's fit ends with all points instead of a sample:
    * its cost can then be compared with that of other parts of the same points. */
   bool all_points = false;
-  /** \brief Whether TAPERED is among the families. Off unless asked for: what takes a
-   * union of superquadrics takes no taper; it costs several times the time. */
+  /** \brief Whether TAPERED is among the families. */
   bool taper = false;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
@@ -74,11 +72,14 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
 
 /** \brief Result of fitWithSupports(). */
 struct SupportFit {
-  FitSummary fit; ///< of the best family without a taper
+  FitSummary fit; ///< of the chosen family
   ShapeCandidate chosen;
   double margin = 0.0; ///< BIC of the best other family minus that of the chosen one
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
+
+  /** \brief The best model without a taper: where another search goes on from. */
+  const Superquadric& straight() const;
 };
 
 /** \brief Fits one superquadric to points and to what its silhouette and its support

@@ -29,7 +29,8 @@ PCL_SQ_EXPORTS std::vector<Eigen::Vector3d>
 sampleUniform(const Superquadric& superquadric, std::size_t count, unsigned seed = 0);
 
 /** \brief Points about \a spacing [m] apart along the two profile curves (Pilu & Fisher
- * 1995, "Equal-distance sampling of superellipse models"). */
+ * 1995, "Equal-distance sampling of superellipse models"); of a tapered body, before
+ * tapering. */
 PCL_SQ_EXPORTS std::vector<Eigen::Vector3d>
 sampleEqualDistance(const Superquadric& superquadric, double spacing);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visualization/display_surface.h"
 
+#include "taper.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -122,11 +124,13 @@ DisplaySurface displaySurface(const Superquadric& s, int steps) {
   for (const ProfilePoint& m : meridian)
     for (const ProfilePoint& h : equator) {
       const double share = m.x / radius;
-      surface.vertices.push_back(s.toWorld({share * h.x, share * h.y, m.y}));
+      const Eigen::Vector3d straight(share * h.x, share * h.y, m.y);
+      surface.vertices.push_back(
+          s.toWorld(straight.cwiseProduct(detail::growth(s, m.y))));
       const double weight = m.nx * radius;
+      const Eigen::Vector3d normal(weight * h.nx, weight * h.ny, m.ny);
       surface.normals.push_back(
-          (s.rotation * Eigen::Vector3d(weight * h.nx, weight * h.ny, m.ny))
-              .normalized());
+          (s.rotation * detail::taperedAreaVector(s, straight, normal)).normalized());
     }
   const auto index = [around](std::uint32_t row, std::uint32_t column) {
     return row * around + column % around;

@@ -23,9 +23,8 @@ inline ObjectFit fitScene(const ViewScene& scene,
   return fitObject(observed, options);
 }
 
-/** \brief Share of the volume of two unions that both have, tapered or not. */
-template <typename A, typename B>
-double overlap(const A& a, const B& b) {
+/** \brief Share of the volume of two unions that both have. */
+inline double overlap(const MultiSuperquadric& a, const MultiSuperquadric& b) {
   Eigen::AlignedBox3d box = a.boundingBox();
   box.extend(b.boundingBox());
   Random random(10);

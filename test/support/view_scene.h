@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
-#include "pcl_sq/tapered_union.h"
 #include "random_superquadric.h"
 
 #include <limits>
@@ -11,14 +11,13 @@ namespace pcl_sq::test {
 
 /** \brief Distance along a ray to a superquadric; infinity where it is missed. The
  * gauge is convex along the ray, or nearly so where the body is tapered. */
-inline double firstHit(const TaperedSuperquadric& s,
+inline double firstHit(const Superquadric& s,
                        const Eigen::Vector3d& from,
                        const Eigen::Vector3d& ray) {
   // the box holds the body
-  const double radius =
-      s.shape.semi_axes.norm() * (1.0 + std::max(std::abs(s.kx), std::abs(s.ky)));
-  const double middle = ray.dot(s.shape.center - from);
-  if ((from + middle * ray - s.shape.center).norm() > radius)
+  const double radius = s.halfSizes().norm();
+  const double middle = ray.dot(s.center - from);
+  if ((from + middle * ray - s.center).norm() > radius)
     return std::numeric_limits<double>::infinity();
   const auto gauge = [&](double t) { return s.gauge(from + t * ray); };
   double a = middle - radius, b = middle + radius;
@@ -74,14 +73,14 @@ struct ViewScene {
     object.parts.push_back(s);
   }
   /** \brief The object with its taper. */
-  TaperedUnion tapered() const {
-    TaperedUnion bodies(object);
-    for (TaperedSuperquadric& body : bodies.parts)
+  MultiSuperquadric tapered() const {
+    MultiSuperquadric bodies = object;
+    for (Superquadric& body : bodies.parts)
       body.kx = body.ky = taper;
     return bodies;
   }
   void render(double noise = 0.0) {
-    const TaperedUnion bodies = tapered();
+    const MultiSuperquadric bodies = tapered();
     Random random(3);
     points.resize(3, width * height);
     mask = CellMask(width, height);
@@ -91,7 +90,7 @@ struct ViewScene {
         double t = -table.offset / table.normal.dot(ray);
         if (!(t > 0.0 && t < 3.0))
           t = 3.0;
-        for (const TaperedSuperquadric& s : bodies.parts) {
+        for (const Superquadric& s : bodies.parts) {
           const double hit = firstHit(s, camera.center, ray);
           if (hit < t) {
             t = hit;

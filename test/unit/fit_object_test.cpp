@@ -250,16 +250,16 @@ TEST(FitObject, PotIsOneTaperedPartWhereTapersAreAskedFor) {
     scene.taper = taper;
     scene.render(0.001);
     const ObjectFit fit = fitScene(scene, options);
-    ASSERT_EQ(fit.tapered.size(), 1u);
+    ASSERT_EQ(fit.model.size(), 1u);
     EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::TAPERED);
     EXPECT_EQ(fit.parts[0].chosen.before, ShapeClass::ROTATIONAL);
     EXPECT_GT(fit.parts[0].margin, 10.0);
-    EXPECT_NEAR(std::abs(fit.tapered.parts[0].kx), 0.3, 0.05);
-    const double found = overlap(fit.tapered, scene.tapered());
+    EXPECT_NEAR(std::abs(fit.model.parts[0].kx), 0.3, 0.05);
+    const double found = overlap(fit.model, scene.tapered());
     EXPECT_GT(found, 0.93);
     // without, it is a stack of parts or a poor one
     const ObjectFit plain = fitScene(scene);
-    EXPECT_FALSE(plain.tapered.isTapered());
+    EXPECT_FALSE(plain.model.parts[0].isTapered());
     EXPECT_LT(overlap(plain.model, scene.tapered()), found - 0.05);
   }
 }
@@ -272,7 +272,8 @@ TEST(FitObject, CanAndBottleTakeNoTaper) {
   can.render(0.001);
   for (const ViewScene& scene : {can, bottleScene()}) {
     const ObjectFit fit = fitScene(scene, options), plain = fitScene(scene);
-    EXPECT_FALSE(fit.tapered.isTapered());
+    for (const Superquadric& part : fit.model.parts)
+      EXPECT_FALSE(part.isTapered());
     ASSERT_EQ(fit.model.size(), plain.model.size());
     EXPECT_EQ(fit.model.parts[0].toCoefficients(),
               plain.model.parts[0].toCoefficients());
@@ -280,29 +281,28 @@ TEST(FitObject, CanAndBottleTakeNoTaper) {
 }
 
 TEST(FitObject, ConeSeenFromAllSidesIsOneTaperedPart) {
-  TaperedSuperquadric cone;
-  cone.shape.center = {0.1, -0.2, 0.7};
-  cone.shape.rotation = Random(4).rotation();
-  cone.shape.semi_axes = {0.04, 0.04, 0.06};
-  cone.shape.epsilon1 = 0.3;
+  Superquadric cone;
+  cone.center = {0.1, -0.2, 0.7};
+  cone.rotation = Random(4).rotation();
+  cone.semi_axes = {0.04, 0.04, 0.06};
+  cone.epsilon1 = 0.3;
   cone.kx = cone.ky = 0.5;
-  TaperedUnion truth;
+  MultiSuperquadric truth;
   truth.parts.push_back(cone);
   Random random(21);
-  const std::vector<Eigen::Vector3d> even = sampleUniform(cone.shape, 2500);
+  const std::vector<Eigen::Vector3d> even = sampleUniform(cone, 2500);
   Eigen::Matrix3Xf points(3, Eigen::Index(even.size()));
   for (std::size_t i = 0; i < even.size(); ++i) {
     const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
-    points.col(Eigen::Index(i)) =
-        (cone.tapered(even[i]) + 0.0007 * error).cast<float>();
+    points.col(Eigen::Index(i)) = (even[i] + 0.0007 * error).cast<float>();
   }
   ObservedObject observed;
   ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
   ObjectFitOptions options;
   options.fit.taper = true;
   const ObjectFit fit = fitObject(observed, options);
-  ASSERT_EQ(fit.tapered.size(), 1u);
-  EXPECT_GT(overlap(fit.tapered, truth), 0.97);
+  ASSERT_EQ(fit.model.size(), 1u);
+  EXPECT_GT(overlap(fit.model, truth), 0.97);
 }
 
 TEST(FitObject, SettingsOutOfRangeAreRefusedWithASentence) {

@@ -70,7 +70,7 @@ TEST(LevenbergMarquardt, GradientIsTheCostsForEveryMixture) {
     o.sigma = 0.05;
     o.outlier = outlier;
     const Superquadric at = moved(shape, randomStep(random, 0.05), o);
-    const NormalEquations e = normalEquations(points, at, o);
+    const NormalEquations e = sumsOf<11>(points, at, o);
     for (int i = 0; i < 11; ++i) {
       constexpr double STEP = 2e-3;
       const double slope =

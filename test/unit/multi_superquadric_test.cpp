@@ -114,22 +114,21 @@ TEST(ModelIo, WrittenModelReadsBackToTheLastBit) {
   EXPECT_EQ(toJson(file, -1).find('\n'), std::string::npos);
 }
 
-TEST(ModelIo, TaperedPartsReachOnlyTheReaderThatAsksForThem) {
+TEST(ModelIo, TapersAreKeptAndRaiseTheVersion) {
   ModelFile file = sampleFile();
-  file.tapers.assign(file.model.size(), {0.0, 0.0});
   EXPECT_NE(toJson(file).find("\"version\": 1"), std::string::npos) << "none tapers";
-  file.tapers[0] = {0.2, -0.3};
+  file.model.parts[0].kx = 0.2;
+  file.model.parts[0].ky = -0.3;
   const std::string text = toJson(file);
+  EXPECT_NE(text.find("\"version\": 2"), std::string::npos);
   ModelFile back;
   std::string why;
-  EXPECT_FALSE(fromJson(text, back, &why));
-  EXPECT_NE(why.find("tapered"), std::string::npos) << why;
-  EXPECT_TRUE(back.model.empty());
-  ASSERT_TRUE(fromJson(text, back, &why, TaperedParts::READ)) << why;
-  EXPECT_EQ(back.tapers, file.tapers);
+  ASSERT_TRUE(fromJson(text, back, &why)) << why;
+  EXPECT_EQ(back.model.parts[0].kx, 0.2);
+  EXPECT_EQ(back.model.parts[0].ky, -0.3);
   EXPECT_EQ(toJson(back), text);
-  file.tapers[0] = {1.5, 0.0};
-  EXPECT_FALSE(fromJson(toJson(file), back, &why, TaperedParts::READ));
+  file.model.parts[0].kx = 1.5;
+  EXPECT_FALSE(fromJson(toJson(file), back, &why));
   EXPECT_NE(why.find("taper"), std::string::npos) << why;
 }
 

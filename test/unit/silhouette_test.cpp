@@ -40,7 +40,7 @@ void addExactly(const detail::SupportCost& cost,
                 const Superquadric& s,
                 detail::NormalEquations& e) {
   const auto row = [&](const Eigen::Vector3d& normal) {
-    detail::SupportRow<11> r;
+    detail::PlaneRow<11> r;
     r.derivatives = s.supportJacobian(normal, r.reach);
     r.reach += normal.dot(s.center);
     return r;

@@ -172,8 +172,6 @@ bool ObjectSurfaceEstimation<PointT>::fitObject(MultiSuperquadric& model) {
     return fail(std::to_string(report_.view.points.cols()) +
                 " points give no superquadric: they must span a volume");
   model = fit.model;
-  if (options.fit.taper)
-    report_.tapered = fit.tapered;
   report_.parts.resize(fit.parts.size());
   for (std::size_t k = 0; k < fit.parts.size(); ++k) {
     PartReport& part = report_.parts[k];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "taper_support.h"
+// The support function of a tapered superquadric, by slices.
+#include "taper.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pcl_sq {
+namespace pcl_sq::detail {
 
 namespace {
 
@@ -20,8 +21,8 @@ constexpr int REFINEMENTS = 24; ///< golden sections of the best two slices
  * p = 2 / (2 - e2), the dual norm of the section's |.|_(2 / e2). */
 class Slices {
 public:
-  Slices(const TaperedSuperquadric& s, const Eigen::Vector3d& local)
-      : s_(s), n_(local), e2_(std::min(s.shape.epsilon2, MAX_SECTION)),
+  Slices(const Superquadric& s, const Eigen::Vector3d& local)
+      : s_(s), n_(local), e2_(std::min(s.epsilon2, MAX_SECTION)),
         p_(2.0 / (2.0 - e2_)) {}
 
   struct Slice {
@@ -35,11 +36,11 @@ public:
   };
   Slice at(double eta) const {
     Slice c;
-    const Eigen::Vector3d& a = s_.shape.semi_axes;
+    const Eigen::Vector3d& a = s_.semi_axes;
     c.sine = std::sin(eta);
     c.cosine = std::max(std::cos(eta), 0.0);
-    c.height = std::copysign(std::pow(std::abs(c.sine), s_.shape.epsilon1), c.sine);
-    c.scale = std::pow(c.cosine, s_.shape.epsilon1);
+    c.height = std::copysign(std::pow(std::abs(c.sine), s_.epsilon1), c.sine);
+    c.scale = std::pow(c.cosine, s_.epsilon1);
     c.fx = 1.0 + s_.kx * c.height;
     c.fy = 1.0 + s_.ky * c.height;
     c.u = std::abs(n_.x()) * a.x() * c.fx;
@@ -95,7 +96,7 @@ public:
   }
   /** \brief The point that touches, in the own frame. */
   Eigen::Vector3d touching(const Slice& c) const {
-    const Eigen::Vector3d& a = s_.shape.semi_axes;
+    const Eigen::Vector3d& a = s_.semi_axes;
     const Eigen::Vector2d share = shares(c);
     return {
         std::copysign(std::pow(share.x(), 0.5 * e2_), n_.x()) * c.scale * a.x() * c.fx,
@@ -104,7 +105,7 @@ public:
   }
 
 private:
-  const TaperedSuperquadric& s_;
+  const Superquadric& s_;
   Eigen::Vector3d n_;
   double e2_, p_;
 };
@@ -115,17 +116,14 @@ double logOrZero(double x) {
 
 } // namespace
 
-namespace detail {
-
-SupportRow<13> taperSupport(const TaperedSuperquadric& s,
-                            const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d n = s.shape.rotation.transpose() * normal;
-  SupportRow<13> row;
+BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d n = s.rotation.transpose() * normal;
+  BodyRow row;
   if (!s.isTapered()) { // in closed form
-    row.derivatives.head<11>() = s.shape.supportJacobian(normal, row.reach);
-    row.reach += normal.dot(s.shape.center);
-    const Eigen::Vector3d p = s.shape.toLocal(s.shape.supportPoint(normal));
-    const double height = p.z() / s.shape.semi_axes.z();
+    row.derivatives.head<11>() = s.supportJacobian(normal, row.value);
+    row.value += normal.dot(s.center);
+    const Eigen::Vector3d p = s.toLocal(s.supportPoint(normal));
+    const double height = p.z() / s.semi_axes.z();
     row.derivatives[11] = n.x() * p.x() * height;
     row.derivatives[12] = n.y() * p.y() * height;
     return row;
@@ -135,7 +133,7 @@ SupportRow<13> taperSupport(const TaperedSuperquadric& s,
   const Eigen::Vector3d touching = slices.touching(c);
   const Eigen::Vector3d along = n.cwiseProduct(touching);
   const Eigen::Vector2d share = slices.shares(c);
-  row.reach = normal.dot(s.shape.center) + along.sum();
+  row.value = normal.dot(s.center) + along.sum();
   row.derivatives.head<3>() = n;
   row.derivatives.segment<3>(3) = touching.cross(n);
   row.derivatives.segment<3>(6) = along;
@@ -151,17 +149,14 @@ SupportRow<13> taperSupport(const TaperedSuperquadric& s,
   return row;
 }
 
-} // namespace detail
-
-double TaperedSuperquadric::support(const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d local = shape.rotation.transpose() * direction;
-  return Slices(*this, local).farthest().reach;
+double taperedSupport(const Superquadric& s, const Eigen::Vector3d& local) {
+  return Slices(s, local).farthest().reach;
 }
 
-Eigen::Vector3d
-TaperedSuperquadric::supportPoint(const Eigen::Vector3d& direction) const {
-  const Slices slices(*this, shape.rotation.transpose() * direction);
-  return shape.toWorld(slices.touching(slices.farthest()));
+Eigen::Vector3d taperedSupportPoint(const Superquadric& s,
+                                    const Eigen::Vector3d& local) {
+  const Slices slices(s, local);
+  return slices.touching(slices.farthest());
 }
 
-} // namespace pcl_sq
+} // namespace pcl_sq::detail
