@@ -280,8 +280,9 @@ bool ObjectFitOptions::isValid(std::string* why) const {
   check.inRange("max_parts", max_parts, 1, 16);
   check.inRange("parts", parts, 0, 16);
   check.inRange("silhouette_lines", silhouette_lines, 8, 360);
-  check.inRange("noise", fit.noise, 0.0, 1e9);
-  return check.passed();
+  check.require(fit.precision.empty(),
+                "fit.precision is found by fitObject() and must be empty");
+  return check.passed() && fit.isValid(why);
 }
 
 ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {

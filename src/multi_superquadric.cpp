@@ -64,6 +64,10 @@ double MultiSuperquadric::distortion(const CloudPoints& points, double unit) con
   return detail::surfaceStatistics(*this, points).distortion * std::pow(unit, -1.5);
 }
 
+SurfaceStatistics MultiSuperquadric::statistics(const CloudPoints& points) const {
+  return detail::surfaceStatistics(*this, points);
+}
+
 double
 MultiSuperquadric::rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const {
   return detail::surfaceStatistics(*this, points).rms_distance;

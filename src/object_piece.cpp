@@ -254,6 +254,7 @@ void fitPiece(const PieceContext& context,
   options.noise = context.noise;
   options.effective_points = std::max(12.0, share * o.effective_points);
   options.max_semi_axis = 1.5 * halfDiagonal(points);
+  options.precision.clear(); // fitObject() knows it of each point, see isValid()
   if (!context.precision.empty())
     for (const int i : piece.points)
       options.precision.push_back(context.precision[std::size_t(i)]);

@@ -99,7 +99,7 @@ bool observeImage(Observation& o, std::string& why) {
       has_mask || !out.table ? -1e300 : 3.0 * standingHeight(*out.table, out.depth);
   out.contour = contourOf(out.pixels, [&](int x, int y) {
     const int c = y * o.width + x;
-    if (!has_mask && o.finite(c) && out.table->height(o.at(c)) < floor)
+    if (!has_mask && out.table && o.finite(c) && out.table->height(o.at(c)) < floor)
       return true;
     return occluded(o, patch, x, y);
   });

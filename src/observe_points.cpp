@@ -51,16 +51,18 @@ void choosePoints(Observation& o,
   const int step =
       std::max(1, static_cast<int>(std::floor(std::sqrt(area / double(MAX_POINTS)))));
   std::vector<int> chosen;
-  std::size_t finite = 0;
+  std::size_t pixels = 0, finite = 0; // well inside the mask; with a depth
   for (int shrink = rim; shrink >= 0 && chosen.size() < std::size_t(MIN_IMAGE_POINTS);
        --shrink) {
     chosen.clear();
-    finite = 0;
+    pixels = finite = 0;
     for (int y = box.y; y < box.y + box.height; y += step)
       for (int x = box.x; x < box.x + box.width; x += step) {
         const int c = y * o.width + x;
-        if (!o.out.pixels(x, y) || !o.finite(c) ||
-            !deepInside(o.out.pixels, x, y, shrink))
+        if (!o.out.pixels(x, y) || !deepInside(o.out.pixels, x, y, shrink))
+          continue;
+        ++pixels;
+        if (!o.finite(c))
           continue;
         ++finite;
         if (agreesWithNeighbours(patch, x, y))
@@ -72,7 +74,7 @@ void choosePoints(Observation& o,
   for (std::size_t i = 0; i < chosen.size(); ++i)
     o.out.points.col(static_cast<Eigen::Index>(i)) = o.at(chosen[i]);
   const double independent = area / (o.view.correlation * o.view.correlation) *
-                             double(finite) / std::max(1.0, double(finite));
+                             double(finite) / std::max(1.0, double(pixels));
   o.out.effective_points = std::min(double(chosen.size()), independent);
 }
 

@@ -17,6 +17,14 @@ public:
     if (passed_ && !(value >= low && value <= high))
       fail(name, value, low, high);
   }
+  /** \brief Any other rule. */
+  void require(bool holds, const char* sentence) {
+    if (!passed_ || holds)
+      return;
+    passed_ = false;
+    if (why_)
+      *why_ = sentence;
+  }
   bool passed() const { return passed_; }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/support_fit.h"
 
+#include "option_check.h"
 #include "parallel_for.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "support_problem.h"
@@ -135,6 +136,18 @@ void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& 
 }
 
 } // namespace detail
+
+bool SupportFitOptions::isValid(std::string* why) const {
+  OptionCheck check(why);
+  check.inRange("noise", noise, 0.0, 1e9);
+  check.inRange("effective_points", effective_points, 0.0, 1e15);
+  check.inRange("max_semi_axis", max_semi_axis, 0.0, 1e9);
+  check.inRange(
+      "min_epsilon", min_epsilon, Superquadric::MIN_EPSILON, Superquadric::MAX_EPSILON);
+  check.inRange("max_epsilon", max_epsilon, min_epsilon, Superquadric::MAX_EPSILON);
+  check.inRange("starts", starts, 0, 24);
+  return check.passed();
+}
 
 const Superquadric& SupportFit::straight() const {
   const auto found =

@@ -8,12 +8,6 @@
 
 namespace pcl_sq::detail {
 
-/** \brief How well points lie on a union of superquadrics. */
-struct SurfaceStatistics {
-  double distortion = 0.0; ///< Eq. (7), each point charged to its nearest part by |G-1|
-  double rms_distance = 0.0; ///< of the foot-point distance to the nearest part [m]
-};
-
 /** \brief Both at once, in one pass with the vectorised kernels; non-finite points are
  * left out. Zeros for no points or an empty model.
  * \param[in] points Eigen::Ref<const Eigen::Matrix3Xd> or CloudPoints */

@@ -5,6 +5,12 @@
 
 namespace pcl_sq {
 
+/** \brief How well points lie on a union of superquadrics. */
+struct SurfaceStatistics {
+  double distortion = 0.0; ///< Eq. (7), each point charged to its nearest part by |G-1|
+  double rms_distance = 0.0; ///< of the foot-point distance to the nearest part [m]
+};
+
 /** \brief A union of superquadrics: the paper's compact volume of an object.
  * \ingroup pcl_sq */
 struct PCL_SQ_EXPORTS MultiSuperquadric {
@@ -36,6 +42,8 @@ struct PCL_SQ_EXPORTS MultiSuperquadric {
   double distortion(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                     double unit = 1.0) const;
   double distortion(const CloudPoints& points, double unit = 1.0) const;
+  /** \brief distortion() in SI units and rmsDistance() in one pass over the points. */
+  SurfaceStatistics statistics(const CloudPoints& points) const;
   /** \brief Root mean square of the point-to-surface distance (foot point) [m]. */
   double rmsDistance(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const;
   double rmsDistance(const CloudPoints& points) const;

@@ -5,6 +5,7 @@
 #include "pcl_sq/support_plane.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl_sq {
@@ -68,6 +69,10 @@ struct PCL_SQ_EXPORTS SupportFitOptions {
   bool taper = false;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
+
+  /** \brief Whether every setting is in its range. \param[out] why the first that is
+   * not */
+  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
 };
 
 /** \brief Result of fitWithSupports(). */

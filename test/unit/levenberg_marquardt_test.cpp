@@ -161,6 +161,7 @@ TEST(LevenbergMarquardt, AHopelessFitEndsAndAPromisingOneGoesOn) {
   LmOptions o;
   o.hopeless = {2, 0.0};
   EXPECT_EQ(levenbergMarquardt(points, start, o).iterations, 2);
+  EXPECT_EQ(levenbergMarquardt(points, start, o).termination, Termination::GIVEN_UP);
   o.hopeless = {2, 1e9};
   EXPECT_EQ(levenbergMarquardt(points, start, o).iterations, free.iterations);
 }

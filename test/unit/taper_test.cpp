@@ -31,10 +31,7 @@ Superquadric moved(Superquadric s, int i, double step) {
   else if (i < 9)
     s.semi_axes[i - 6] *= std::exp(step);
   else
-    (i == 9    ? s.epsilon1
-     : i == 10 ? s.epsilon2
-     : i == 11 ? s.kx
-               : s.ky) += step;
+    (i == 9 ? s.epsilon1 : i == 10 ? s.epsilon2 : i == 11 ? s.kx : s.ky) += step;
   return s;
 }
 
@@ -95,8 +92,7 @@ TEST(Taper, DistanceIsThatAlongTheNormalCloseToTheSurface) {
     const Eigen::Vector3d p = surfacePoint(random, s);
     // moving the body by t changes ln G by -gradient . t
     const Eigen::Vector3d normal =
-        s.rotation *
-        -detail::logGaugeRow(s, p).derivatives.head<3>().normalized();
+        s.rotation * -detail::logGaugeRow(s, p).derivatives.head<3>().normalized();
     for (const double d : {-0.01, 0.01})
       EXPECT_NEAR(s.footPointDistance(p + d * normal), d, 0.001);
   }
@@ -231,8 +227,8 @@ TEST(Taper, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
       s.kx = s.ky = 0.0;
     Eigen::Matrix3Xd points(3, 200);
     for (Eigen::Index k = 0; k < points.cols(); ++k)
-      points.col(k) = s.center + random.uniform(0.0, 3.0) *
-                                           (random.pointNear(s) - s.center);
+      points.col(k) =
+          s.center + random.uniform(0.0, 3.0) * (random.pointNear(s) - s.center);
     const double reach = 0.3 * s.semi_axes.minCoeff();
     const Eigen::VectorXd exact = surfaceDistances(s, points);
     Eigen::VectorXd distances = Eigen::VectorXd::Constant(points.cols(), 2.0 * reach);
@@ -334,12 +330,10 @@ TEST(Taper, EvenMomentsAreThoseOfTheStraightBody) {
     s.rotation.setIdentity();
     EXPECT_NEAR(detail::evenMoment(s, 0, 0, 0), s.volume(), 1e-9 * s.volume());
     const Eigen::Vector3d i = s.inertia().diagonal();
-    EXPECT_NEAR(detail::evenMoment(s, 0, 0, 2),
-                0.5 * (i.x() + i.y() - i.z()),
-                1e-9 * i.norm());
-    EXPECT_NEAR(detail::evenMoment(s, 2, 0, 0),
-                0.5 * (i.y() + i.z() - i.x()),
-                1e-9 * i.norm());
+    EXPECT_NEAR(
+        detail::evenMoment(s, 0, 0, 2), 0.5 * (i.x() + i.y() - i.z()), 1e-9 * i.norm());
+    EXPECT_NEAR(
+        detail::evenMoment(s, 2, 0, 0), 0.5 * (i.y() + i.z() - i.x()), 1e-9 * i.norm());
   }
 }
 
@@ -351,9 +345,10 @@ TEST(Taper, UnionsFiguresAreThoseOfTheirPoints) {
   double squares = 0.0;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     points.col(i) = random.pointNear(model.parts[std::size_t(i % 2)]);
-    squares += std::pow(std::min(std::abs(model.parts[0].footPointDistance(points.col(i))),
-                                 std::abs(model.parts[1].footPointDistance(points.col(i)))),
-                        2);
+    squares +=
+        std::pow(std::min(std::abs(model.parts[0].footPointDistance(points.col(i))),
+                          std::abs(model.parts[1].footPointDistance(points.col(i)))),
+                 2);
   }
   EXPECT_NEAR(model.rmsDistance(points),
               std::sqrt(squares / double(points.cols())),
@@ -376,8 +371,8 @@ TEST(Taper, BoxesCollideWithWhatTheyTouch) {
     for (int i = 0; i < 3000 && !touched; ++i) {
       const Eigen::Vector3d q(
           random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-      touched = s.gauge(box.center +
-                        box.rotation * q.cwiseProduct(box.half_sizes)) <= 1.0;
+      touched =
+          s.gauge(box.center + box.rotation * q.cwiseProduct(box.half_sizes)) <= 1.0;
     }
     EXPECT_TRUE(!touched || collides(box, s)) << "case " << trial;
     apart += collides(box, s) ? 0 : 1;

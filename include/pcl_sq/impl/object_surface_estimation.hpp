@@ -266,8 +266,9 @@ void ObjectSurfaceEstimation<PointT>::evaluate(const pcl::IndicesPtr& object,
                                                const MultiSuperquadric& model) {
   report_.object_indices = *object;
   const Eigen::Matrix3Xf points = detail::gatherPoints(*input_, *object);
-  report_.distortion = model.distortion(points);
-  report_.rms_distance = model.rmsDistance(points);
+  const SurfaceStatistics statistics = model.statistics(points);
+  report_.distortion = statistics.distortion;
+  report_.rms_distance = statistics.rms_distance;
 }
 
 template <typename PointT>
