@@ -30,8 +30,7 @@ bool parseJson(const std::string& text, Json& json, std::string* why) {
   try {
     json = Json::parse(text, bounded);
   } catch (const typename Json::parse_error& error) {
-    const auto end =
-        text.begin() + std::ptrdiff_t(std::min(error.byte, text.size()));
+    const auto end = text.begin() + std::ptrdiff_t(std::min(error.byte, text.size()));
     return fail("not valid JSON at line " +
                 std::to_string(1 + std::count(text.begin(), end, '\n')));
   } catch (const typename Json::exception&) {

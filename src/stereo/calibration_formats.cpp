@@ -62,10 +62,8 @@ void raiseLoad(const std::string& what) {
   throw Exception("[pcl_sq::StereoCalibration::load] " + what);
 }
 
-cv::Mat matrixOf(const CalibrationEntry& entry,
-                 const std::string& name,
-                 int rows,
-                 int cols) {
+cv::Mat
+matrixOf(const CalibrationEntry& entry, const std::string& name, int rows, int cols) {
   if (entry.numbers.size() != static_cast<std::size_t>(rows * cols))
     raiseLoad(name + " must hold " + std::to_string(rows) + " x " +
               std::to_string(cols) + " numbers but holds " +
@@ -88,9 +86,10 @@ void setLens(const std::string& model, CalibrationContents& contents) {
     return;
   const LensName lens = understandLens(model);
   if (lens == LensName::UNKNOWN)
-    raiseLoad("the lens model '" + model +
-              "' is not known; pinhole lenses with radial and tangential distortion "
-              "(plumb_bob, radtan, rational_polynomial) and fisheyes (equidistant) are.");
+    raiseLoad(
+        "the lens model '" + model +
+        "' is not known; pinhole lenses with radial and tangential distortion "
+        "(plumb_bob, radtan, rational_polynomial) and fisheyes (equidistant) are.");
   contents.cameras.fisheye = contents.cameras.fisheye || lens == LensName::FISHEYE;
 }
 
@@ -117,15 +116,16 @@ bool readKalibr(const CalibrationDocuments& documents, CalibrationContents& cont
         d, prefix, "distortion_coeffs", contents, i ? c.M2 : c.M1, i ? c.D2 : c.D1);
   }
   if (understandLens(lenses[0]) != understandLens(lenses[1]))
-    raiseLoad("cam0 and cam1 have lenses of two kinds (" + lenses[0] + ", " + lenses[1] +
-              "); calibrate both with one model.");
+    raiseLoad("cam0 and cam1 have lenses of two kinds (" + lenses[0] + ", " +
+              lenses[1] + "); calibrate both with one model.");
   if (const CalibrationEntry* motion = d.find("cam1/T_cn_cnm1"))
     setMotion(matrixOf(*motion, "cam1/T_cn_cnm1", 4, 4), c);
   else {
     const std::string left = "cam0/T_cam_imu", right = "cam1/T_cam_imu";
     if (d.find(left) == nullptr || d.find(right) == nullptr)
-      raiseLoad("'" + d.file + "' has no cam1/T_cn_cnm1, the place of the right camera; "
-                               "give the camchain of both cameras.");
+      raiseLoad("'" + d.file +
+                "' has no cam1/T_cn_cnm1, the place of the right camera; "
+                "give the camchain of both cameras.");
     setMotion(matrixOf(*d.find(right), right, 4, 4) *
                   matrixOf(*d.find(left), left, 4, 4).inv(),
               c);
@@ -260,8 +260,9 @@ bool readZed(const CalibrationDocuments& documents,
   };
   const double baseline = stereo("Baseline");
   if (baseline == 0.0)
-    raiseLoad("'" + d.file + "' has no Baseline in its section [STEREO]; give the file "
-                             "that the camera's maker delivers.");
+    raiseLoad("'" + d.file +
+              "' has no Baseline in its section [STEREO]; give the file "
+              "that the camera's maker delivers.");
   const cv::Mat turn =
       (cv::Mat_<double>(3, 1) << stereo("RX"), stereo("CV"), stereo("RZ"));
   cv::Rodrigues(turn, c.R);

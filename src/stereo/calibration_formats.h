@@ -25,10 +25,8 @@ using CalibrationDocuments = std::vector<CalibrationDocument>;
 
 /** \brief A matrix of a shape; a flat list of the same count is one as well.
  * \throws pcl_sq::Exception if the count differs */
-cv::Mat matrixOf(const CalibrationEntry& entry,
-                 const std::string& name,
-                 int rows,
-                 int cols);
+cv::Mat
+matrixOf(const CalibrationEntry& entry, const std::string& name, int rows, int cols);
 /** \brief One number. \throws pcl_sq::Exception if the entry is none */
 double numberOf(const CalibrationEntry& entry, const std::string& name);
 /** \brief K of fx, fy, cx, cy. */

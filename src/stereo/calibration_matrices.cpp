@@ -106,7 +106,8 @@ void addEntry(const std::string& path,
   if (name.meaning == M::LENS_MODEL)
     named.add(name.meaning, name.side, {path, {}, entry.text});
   else if (name.meaning == M::WIDTH || name.meaning == M::HEIGHT)
-    named.add(name.meaning, 0, {path, cv::Mat(1, 1, CV_64F, numberOf(entry, path)), {}});
+    named.add(
+        name.meaning, 0, {path, cv::Mat(1, 1, CV_64F, numberOf(entry, path)), {}});
   else if (isMatrixLike(name.meaning)) {
     const int side = name.meaning == M::SIZE ? 0 : name.side;
     named.add(name.meaning, side, {path, matrixFor(name.meaning, entry, path), {}});
@@ -116,14 +117,15 @@ void addEntry(const std::string& path,
         understandLens(entry.text) == LensName::FISHEYE)
       named.add(M::LENS_MODEL, name.side, {path, {}, entry.text});
     const bool camera_like = entry.rows >= 3 && entry.cols >= 3 && entry.cols <= 4;
-    const bool lens_like = (plain.find("dist") != std::string::npos ||
-                            plain.rfind("xi", 0) == 0) &&
-                           !entry.numbers.empty();
+    const bool lens_like =
+        (plain.find("dist") != std::string::npos || plain.rfind("xi", 0) == 0) &&
+        !entry.numbers.empty();
     if (camera_like || lens_like)
-      raiseLoad("'" + path + "' (" + std::to_string(entry.rows) + " x " +
-                std::to_string(entry.cols) +
-                ") is not understood; name it as OpenCV does (M1, D1, M2, D2, R, T, R1, "
-                "R2, P1, P2), or leave it out if it is not needed.");
+      raiseLoad(
+          "'" + path + "' (" + std::to_string(entry.rows) + " x " +
+          std::to_string(entry.cols) +
+          ") is not understood; name it as OpenCV does (M1, D1, M2, D2, R, T, R1, "
+          "R2, P1, P2), or leave it out if it is not needed.");
   }
 }
 
@@ -133,8 +135,8 @@ bool isOneCamera(const CalibrationDocument& d) {
   bool camera = false, projection = false;
   for (const auto& [path, entry] : d.entries) {
     const std::string plain = plainName(path);
-    camera = camera || ((plain == "k" || plain == "cameramatrix") &&
-                        entry.numbers.size() == 9);
+    camera = camera ||
+             ((plain == "k" || plain == "cameramatrix") && entry.numbers.size() == 9);
     projection = projection || ((plain == "p" || plain == "projectionmatrix") &&
                                 entry.numbers.size() == 12);
   }
@@ -160,9 +162,10 @@ CalibrationDocument joined(const CalibrationDocuments& documents) {
   for (const CalibrationDocument& d : documents)
     cameras += isOneCamera(d);
   if (cameras > 0 && (cameras != 2 || documents.size() != 2))
-    raiseLoad("'" + documents[0].file +
-              "' describes one camera; give the files of both, the left one first, or K "
-              "and the baseline (--intrinsics and --baseline).");
+    raiseLoad(
+        "'" + documents[0].file +
+        "' describes one camera; give the files of both, the left one first, or K "
+        "and the baseline (--intrinsics and --baseline).");
   CalibrationDocument all{documents[0].file, {}};
   for (std::size_t i = 0; i < documents.size(); ++i) {
     if (cameras > 0)
@@ -212,15 +215,17 @@ bool isZero(const cv::Mat& m) {
 void refuseLostDistortion(const Named& named) {
   for (const int side : {0, 1, 2})
     if (!isZero(named.matrix(M::DISTORTION, side)))
-      raiseLoad(named.values.at({M::DISTORTION, side}).name +
-                " is given without the camera matrices it belongs to; add them, or leave "
-                "it out if the images are rectified.");
+      raiseLoad(
+          named.values.at({M::DISTORTION, side}).name +
+          " is given without the camera matrices it belongs to; add them, or leave "
+          "it out if the images are rectified.");
   for (const auto& [name, value] : named.numbers)
     if (value != 0.0 && name.size() == 2 && (name[0] == 'k' || name[0] == 'p') &&
         std::isdigit(static_cast<unsigned char>(name[1])))
-      raiseLoad("the distortion " + name +
-                " is not zero but the file describes a rectified pair; give matrices of "
-                "both cameras (M1, D1, M2, D2, R, T), or rectified images.");
+      raiseLoad(
+          "the distortion " + name +
+          " is not zero but the file describes a rectified pair; give matrices of "
+          "both cameras (M1, D1, M2, D2, R, T), or rectified images.");
   if (named.number({"skew", "s"}) > 0.0)
     raiseLoad("a skew of the pixels is not supported; calibrate without it.");
 }
@@ -278,8 +283,9 @@ void readRaw(const Named& named, double unit, CalibrationContents& contents) {
     const bool rectified = !named.matrix(M::RECTIFICATION, 1).empty();
     if (c.R.empty() && !rectified) {
       c.R = cv::Mat::eye(3, 3, CV_64F);
-      contents.notes.push_back("the calibration has T but no R; the cameras are taken as "
-                               "parallel");
+      contents.notes.push_back(
+          "the calibration has T but no R; the cameras are taken as "
+          "parallel");
     }
   }
   c.R1 = named.matrix(M::RECTIFICATION, 1);
@@ -334,10 +340,12 @@ void readNamed(const CalibrationDocuments& documents,
     for (const auto& [path, entry] : document.entries)
       if (found.size() < 60)
         found += (found.empty() ? "" : ", ") + path;
-    raiseLoad("'" + document.file +
-              "' has neither M1 D1 M2 D2 R T nor P1 P2 nor f, cx, cy, baseline (it has " +
-              found + "); give a calibration file, two when intrinsics and extrinsics "
-                      "or left and right are apart.");
+    raiseLoad(
+        "'" + document.file +
+        "' has neither M1 D1 M2 D2 R T nor P1 P2 nor f, cx, cy, baseline (it has " +
+        found +
+        "); give a calibration file, two when intrinsics and extrinsics "
+        "or left and right are apart.");
   }
   if (std::isnan(k.baseline))
     raiseLoad("baseline is missing or not a number; add it to the calibration file.");

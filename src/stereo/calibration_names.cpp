@@ -122,9 +122,23 @@ const std::map<std::string, M>& namesOfThePair() {
 
 /** \brief Parts of names of what is written for information only. */
 bool isHarmless(const std::string& plain) {
-  for (const char* part : {"essential", "fundamental", "homography", "roi", "error",
-                           "err", "rms", "covariance", "deviation", "points", "corner",
-                           "board", "chessboard", "pattern", "timu", "tcamimu", "extrinsicparameters"})
+  for (const char* part : {"essential",
+                           "fundamental",
+                           "homography",
+                           "roi",
+                           "error",
+                           "err",
+                           "rms",
+                           "covariance",
+                           "deviation",
+                           "points",
+                           "corner",
+                           "board",
+                           "chessboard",
+                           "pattern",
+                           "timu",
+                           "tcamimu",
+                           "extrinsicparameters"})
     if (plain.find(part) != std::string::npos)
       return true;
   return false;
@@ -199,14 +213,32 @@ CalibrationName understandName(const std::string& name) {
 
 LensName understandLens(const std::string& name) {
   const std::string plain = plainName(name);
-  for (const char* known : {"pinhole", "perspective", "plumbbob", "radtan", "radialtangential",
-                            "brown", "brownconrady", "rationalpolynomial", "rational",
-                            "thinprism", "opencv", "standard", "none", "nodistortion",
-                            "rectified", "ideal"})
+  for (const char* known : {"pinhole",
+                            "perspective",
+                            "plumbbob",
+                            "radtan",
+                            "radialtangential",
+                            "brown",
+                            "brownconrady",
+                            "rationalpolynomial",
+                            "rational",
+                            "thinprism",
+                            "opencv",
+                            "standard",
+                            "none",
+                            "nodistortion",
+                            "rectified",
+                            "ideal"})
     if (plain == known)
       return LensName::PINHOLE;
-  for (const char* known : {"equidistant", "equi", "fisheye", "opencvfisheye",
-                            "kannalabrandt", "kannalabrandt4", "kb4", "pinholeequi"})
+  for (const char* known : {"equidistant",
+                            "equi",
+                            "fisheye",
+                            "opencvfisheye",
+                            "kannalabrandt",
+                            "kannalabrandt4",
+                            "kb4",
+                            "pinholeequi"})
     if (plain == known)
       return LensName::FISHEYE;
   return LensName::UNKNOWN;

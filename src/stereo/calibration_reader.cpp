@@ -14,8 +14,9 @@ std::string textOf(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()))
-    detail::raiseLoad("cannot read '" + file + "', or it is empty; check the name and "
-                                               "the permissions.");
+    detail::raiseLoad("cannot read '" + file +
+                      "', or it is empty; check the name and "
+                      "the permissions.");
   return text.str();
 }
 
@@ -56,8 +57,8 @@ StereoCalibration StereoCalibration::fromText(const std::vector<CalibrationText>
     if (contents.metres && unit != 1.0)
       detail::raiseLoad("this kind of file has a unit of length of its own; leave out "
                         "--calib-unit.");
-    StereoCalibration result = contents.raw ? fromRaw(contents.cameras)
-                                            : fromRectified(contents.intrinsics);
+    StereoCalibration result =
+        contents.raw ? fromRaw(contents.cameras) : fromRectified(contents.intrinsics);
     result.notes_ = contents.notes;
     return result;
   } catch (const cv::Exception&) {

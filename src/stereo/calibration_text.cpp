@@ -45,7 +45,8 @@ struct Bounds {
 
   void enter(int depth) {
     if (depth > DEEPEST || ++nodes > MOST_NODES)
-      raise("'" + file + "' nests or repeats too much for a calibration; give the "
+      raise("'" + file +
+            "' nests or repeats too much for a calibration; give the "
             "calibration's own file.");
   }
 };
@@ -366,7 +367,8 @@ std::vector<CalibrationDocument> parseCalibrationText(const std::string& text,
   if (begin == std::string::npos)
     raise("'" + file + "' is empty; give a calibration file.");
   if (text.size() > LARGEST_FILE || text.find('\0') != std::string::npos)
-    raise("'" + file + "' is no text, or longer than a calibration is; give a "
+    raise("'" + file +
+          "' is no text, or longer than a calibration is; give a "
           "calibration file.");
   const std::string content = text.substr(begin);
   if (content[0] == '{')

@@ -298,7 +298,7 @@ void StereoCalibration::rectify(const cv::Mat& left,
     return;
   }
   try {
-    if (maps_[0].size() != left.size())
+    if (maps_[0].empty())
       prepareMaps(left.size());
     cv::remap(left, rectified_left, maps_[0], maps_[1], cv::INTER_LINEAR);
     cv::remap(right, rectified_right, maps_[2], maps_[3], cv::INTER_LINEAR);

@@ -22,7 +22,8 @@ struct RawStereoCameras {
   bool fisheye = false;
 };
 
-/** \brief A calibration file that was read already: its name, for messages, and text. */
+/** \brief A calibration file that was read already: its name, for messages, and text.
+ */
 struct CalibrationText {
   std::string name, text;
 };
