@@ -77,7 +77,8 @@ cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags
     }
   }
   if (image.empty())
-    refuse("cannot be decoded; it is damaged, or of a rare kind: write it again as PNG.");
+    refuse(
+        "cannot be decoded; it is damaged, or of a rare kind: write it again as PNG.");
   return image;
 }
 

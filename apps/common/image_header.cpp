@@ -83,8 +83,8 @@ bool readBmp(const Bytes& bytes, ImageHeader& header) {
   header.height = static_cast<std::uint64_t>(
       height < 0 ? -static_cast<std::int64_t>(height) : std::int64_t(height));
   if (bytes.little(30, 4) == 0 && header.width < 65536 && header.height < 65536)
-    header.least_bytes = bytes.little(10, 4) + header.width * header.height *
-                                                   bytes.little(28, 2) / 8;
+    header.least_bytes =
+        bytes.little(10, 4) + header.width * header.height * bytes.little(28, 2) / 8;
   return true;
 }
 
@@ -93,8 +93,9 @@ bool readPnm(const std::string& text, ImageHeader& header) {
   const char mark = text[1];
   std::size_t at = 2;
   const auto number = [&](std::uint64_t& value) {
-    while (at < text.size() && (std::isspace(static_cast<unsigned char>(text[at])) != 0 ||
-                                text[at] == '#')) {
+    while (
+        at < text.size() &&
+        (std::isspace(static_cast<unsigned char>(text[at])) != 0 || text[at] == '#')) {
       if (text[at] == '#')
         at = std::min(text.find('\n', at), text.size());
       else

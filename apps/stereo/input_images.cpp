@@ -20,7 +20,9 @@ void collect(const cv::Mat& image, std::vector<float>& values) {
   image.convertTo(floats, CV_32F);
   for (int v = 0; v < floats.rows; ++v) {
     const auto* row = floats.ptr<float>(v);
-    std::copy_if(row, row + floats.cols * floats.channels(), std::back_inserter(values),
+    std::copy_if(row,
+                 row + floats.cols * floats.channels(),
+                 std::back_inserter(values),
                  [](float x) { return std::isfinite(x); });
   }
 }
@@ -46,7 +48,8 @@ void toEightBits(cv::Mat& left, cv::Mat& right, std::vector<std::string>& notes)
   collect(right, values);
   if (values.empty())
     throw Failure("the images hold no finite value; give images of the scene.");
-  const double low = quantile(values, DEFECTIVE), high = quantile(values, 1.0 - DEFECTIVE);
+  const double low = quantile(values, DEFECTIVE),
+               high = quantile(values, 1.0 - DEFECTIVE);
   if (!(high > low))
     throw Failure("the images show one brightness alone; give images of the scene.");
   const double scale = 255.0 / (high - low);
@@ -89,10 +92,11 @@ readDepth(const std::string& path, double& scale, std::vector<std::string>& note
   const bool given = scale > 0.0;
   if (depth.depth() == CV_8U) {
     if (!given)
-      throw Failure("the depth image '" + path +
-                    "' has 8 bits, too few for millimetres; save the camera's raw depth "
-                    "as a 16-bit PNG, or tell the length of one step with "
-                    "--depth-scale.");
+      throw Failure(
+          "the depth image '" + path +
+          "' has 8 bits, too few for millimetres; save the camera's raw depth "
+          "as a 16-bit PNG, or tell the length of one step with "
+          "--depth-scale.");
     depth.convertTo(depth, CV_16U);
   }
   const bool integers = depth.depth() == CV_16U;
@@ -102,8 +106,9 @@ readDepth(const std::string& path, double& scale, std::vector<std::string>& note
     scale = integers ? 0.001 : 1.0;
   std::vector<float> values;
   collect(depth, values);
-  values.erase(std::remove_if(values.begin(), values.end(), [](float x) { return x <= 0; }),
-               values.end());
+  values.erase(
+      std::remove_if(values.begin(), values.end(), [](float x) { return x <= 0; }),
+      values.end());
   if (values.empty())
     throw Failure("the depth image '" + path + "' holds no depth; give another one.");
   const double median = scale * quantile(values, 0.5);
@@ -113,8 +118,9 @@ readDepth(const std::string& path, double& scale, std::vector<std::string>& note
   const bool doubtful = median < 0.07 || median > farthest;
   if (!given || doubtful)
     notes.push_back("one step of the depth image is " +
-                    std::string(given ? "given as " : "taken as ") + brief(1e3 * scale) +
-                    " mm, so its median depth is " + brief(median) + " m" +
+                    std::string(given ? "given as " : "taken as ") +
+                    brief(1e3 * scale) + " mm, so its median depth is " +
+                    brief(median) + " m" +
                     (doubtful ? ", which no depth camera measures well" : "") +
                     "; --depth-scale sets the length of a step in metres");
   return depth;

@@ -55,7 +55,7 @@ cv::Mat matrixFor(M meaning, const CalibrationEntry& entry, const std::string& n
   const std::size_t count = entry.numbers.size();
   switch (meaning) {
   case M::CAMERA_MATRIX:
-    if (count == 4)
+    if (count == 4 && (entry.rows == 1 || entry.cols == 1))
       return cameraMatrix(
           entry.numbers[0], entry.numbers[1], entry.numbers[2], entry.numbers[3]);
     return matrixOf(entry, name, 3, 3);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 namespace pcl_sq {
 namespace {
