@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/model_io.h"
 
+#include "json_text.h"
 #include "pcl_sq/tapered_superquadric.h"
 
 #include <nlohmann/json.hpp>
@@ -130,7 +131,10 @@ bool versionFromJson(const Json& json, TaperedParts tapered_parts) {
 }
 
 void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) {
-  const Json json = Json::parse(text);
+  Json json;
+  std::string why;
+  if (!detail::parseJson(text, json, &why))
+    throw Refusal{why};
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
   const bool tapered = versionFromJson(json, tapered_parts);
