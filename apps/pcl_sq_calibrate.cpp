@@ -2,6 +2,7 @@
 // Calibration of a stereo camera from pictures of a chessboard.
 #include "app.h"
 #include "files.h"
+#include "value_checks.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -50,7 +51,7 @@ void addOptions(CLI::App& cli, Options& o) {
       ->capture_default_str();
   cli.add_option("--square", o.square, "Side of one square [m]")
       ->required()
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(100.0))
       ->type_name("M");
   cli.add_flag("--rational", o.rational, "Eight lens coefficients, for wide angles");
   cli.add_option("-o,--output", o.output, "Calibration as OpenCV YAML or XML")

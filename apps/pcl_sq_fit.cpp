@@ -4,6 +4,7 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "value_checks.h"
 
 #include "pcl_sq/stage_timer.h"
 
@@ -162,7 +163,7 @@ int main(int argc, char** argv) {
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")
-            ->check(CLI::Range(0, 10000))
+            ->check(app::wholeNumber(0, 10000))
             ->capture_default_str();
         app::addGripperOptions(cli, arguments.grasp_options);
       },

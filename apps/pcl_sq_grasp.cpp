@@ -4,6 +4,7 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "value_checks.h"
 
 using namespace pcl_sq;
 
@@ -35,9 +36,6 @@ Input loadInput(const std::string& path,
       input.cloud = app::columnsOf(app::loadCloud(cloud_path));
     return input;
   }
-  if (!cloud_path.empty())
-    throw app::UsageError(
-        "--cloud goes with a model file; the input is a cloud itself");
   const app::LoadedCloud cloud = app::loadCloud(path);
   input.file = app::makeModel(cloud, path, model_options, 0.0).file;
   input.cloud = app::columnsOf(cloud);
@@ -84,7 +82,8 @@ int main(int argc, char** argv) {
       EXAMPLES,
       [&](CLI::App& cli) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
-            ->check(CLI::ExistingFile);
+            ->type_name("FILE")
+            ->check(app::existingFile());
         cli.add_option("input", input_path, "Model (JSON) or point cloud")
             ->required()
             ->type_name("FILE");
@@ -99,12 +98,13 @@ int main(int argc, char** argv) {
                "--roi", model_options.roi, "Object in the image of a cloud [px]")
             ->expected(4)
             ->delimiter(',')
-            ->type_name("X,Y,W,H");
+            ->type_name("X,Y,W,H")
+            ->check(app::wholeNumber(-app::MAX_PIXELS, app::MAX_PIXELS));
         cli.add_flag("--remove-plane",
                      model_options.remove_plane,
                      "The object of a cloud stands on its largest plane");
         cli.add_option("--threads", model_options.threads, "For the fit, 0: all cores")
-            ->check(CLI::Range(0, 1024))
+            ->check(app::wholeNumber(0, 1024))
             ->capture_default_str();
       },
       [&] { return plan(input_path, cloud_path, model_options, options); });

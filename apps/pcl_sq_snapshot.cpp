@@ -3,6 +3,7 @@
 #include "app.h"
 #include "cloud_picture.h"
 #include "files.h"
+#include "value_checks.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
@@ -65,7 +66,7 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("WxH")
       ->capture_default_str();
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
-      ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
+      ->check(app::oneOf({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
   cli.add_option("--up",
                  a.up,
@@ -73,23 +74,23 @@ void configure(CLI::App& cli, Arguments& a) {
                  "file tells, else -y: cameras have y down")
       ->type_name("x|-x|y|-y|z|-z|X,Y,Z");
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
-      ->check(CLI::Range(1, 1000))
+      ->check(app::wholeNumber(1, 1000))
       ->type_name("N");
   cli.add_option("--opacity", a.options.opacity, "Of the superquadrics")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("0..1")
+      ->check(app::number(0.0, 1.0))
+      ->type_name("N")
       ->capture_default_str();
   cli.add_option("--context",
                  a.options.context,
                  "How far around the object the cloud is shown, in object sizes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(app::number(0.0, 1e6))
       ->type_name("SIZES")
       ->capture_default_str();
   cli.add_option("--point-size", a.options.point_size, "[px]; 0: from the density")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(app::number(0.0, 100.0))
       ->type_name("PX")
       ->capture_default_str();
-  cli.add_option("--title", a.options.title, "Large text at the top");
+  cli.add_option("--title", a.options.title, "Large text at the top")->type_name("TEXT");
   cli.add_option("--caption", a.options.caption, "Small text under the title");
 }
 

@@ -2,6 +2,7 @@
 #include "stereo_front.h"
 
 #include "app.h"
+#include "value_checks.h"
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
@@ -11,7 +12,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
-#include <map>
 
 namespace pcl_sq::app {
 namespace {
@@ -134,23 +134,29 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
       ->expected(1, 2)
       ->type_name("FILE");
   cli.add_option("--calib-unit", o.calib_unit, "Length of its unit [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(1000.0))
       ->capture_default_str();
-  const std::map<std::string, StereoMatcher> matchers{{"bm", StereoMatcher::BM},
-                                                      {"sgbm", StereoMatcher::SGBM}};
+  addChoice<StereoMatcher>(cli,
+                           "--matcher",
+                           o.stereo.matcher,
+                           {{"bm", StereoMatcher::BM}, {"sgbm", StereoMatcher::SGBM}},
+                           "Block matching or semi-global");
   cli.add_option(
-         "--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
-      ->transform(CLI::CheckedTransformer(matchers).description(""))
-      ->type_name("NAME")
-      ->default_str("bm");
-  cli.add_option(
-      "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
-  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found");
-  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found");
+         "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto")
+      ->check(wholeNumber(0, 51))
+      ->capture_default_str();
+  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
+  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
   cli.add_option("--uniqueness", o.stereo.uniqueness, "Margin of the best match [%]")
+      ->check(wholeNumber(0, 100))
       ->capture_default_str();
   cli.add_option(
          "--left-right", o.stereo.left_right_tolerance, "Check [px]; negative: none")
+      ->check(wholeNumber(-1, 100))
       ->capture_default_str();
   cli.add_flag_function(
       "--refine,!--no-refine",
@@ -161,25 +167,24 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--depth", o.depth, "Depth image (16-bit PNG) instead of a right one")
       ->type_name("FILE");
   cli.add_option("--depth-unit", o.depth_unit, "Length of one step of it [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(1000.0))
       ->capture_default_str();
   cli.add_option(
          "--segment",
          o.segment,
          "How the object's outline is found; none: only the box of --roi counts")
-      ->type_name("none|color|grabcut")
       ->default_str("grabcut")
-      ->check(CLI::IsMember({"none", "color", "grabcut"}));
-  auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
-                    ->expected(2)
-                    ->delimiter(',')
-                    ->type_name("X,Y");
+      ->check(oneOf({"none", "color", "grabcut"}));
+  cli.add_option("--click", o.click, "Hint: a pixel of the object")
+      ->expected(2)
+      ->delimiter(',')
+      ->type_name("X,Y")
+      ->check(wholeNumber(0, MAX_PIXELS));
   cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
       ->expected(3)
       ->delimiter(',')
-      ->check(CLI::Range(0, 255))
-      ->type_name("R,G,B")
-      ->excludes(click);
+      ->check(wholeNumber(0, 255))
+      ->type_name("R,G,B");
   cli.add_flag("--border-filter",
                o.border_filter,
                "Texture-based filter of the object's rim (section IV)");
