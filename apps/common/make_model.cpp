@@ -93,7 +93,8 @@ ModelResult makeModel(const LoadedCloud& input,
       timer.run("object", [&] { return chooseObject(input, options); });
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
-  estimation.setIndices(selection.indices);
+  if (selection.indices->size() < input.cloud->size())
+    estimation.setIndices(selection.indices);
   EstimationOptions settings = options.estimation;
   settings.view = makeView(options);
   settings.object_fit.fit.taper = options.taper;

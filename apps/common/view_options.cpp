@@ -56,7 +56,6 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
       ->type_name("paper|best")
       ->default_str("best")
       ->check(CLI::IsMember({"paper", "best"}));
-  options.estimation.decomposition = Decomposition::PARTS;
   cli.add_option("--parts",
                  options.estimation.object_fit.parts,
                  "Number of superquadrics; 0: found")
@@ -106,11 +105,12 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
     const bool paper_option =
         std::any_of(std::begin(PAPER_OPTIONS), std::end(PAPER_OPTIONS), given);
     const bool paper = *preset == "paper" || (preset->empty() && paper_option);
+    EstimationOptions& estimation = options.estimation;
     if (paper && !given("--decomposition"))
-      options.estimation.decomposition = Decomposition::PRISMS;
-    if (!paper && options.estimation.decomposition == Decomposition::NONE)
-      options.estimation.fit = FitMode::FULL;
-    if (paper && options.estimation.decomposition == Decomposition::PARTS)
+      estimation.decomposition = EstimationOptions::paper().decomposition;
+    if (!given("--fit") && (paper || estimation.decomposition == Decomposition::PRISMS))
+      estimation.fit = EstimationOptions::paper().fit;
+    if (paper && estimation.decomposition == Decomposition::PARTS)
       throw UsageError(
           "--decomposition parts is no part of the paper's chain; leave out "
           "the paper's options");

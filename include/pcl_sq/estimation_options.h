@@ -37,13 +37,13 @@ enum class CenterRule {
   MEAN ///< the mean of the part's points
 };
 
-/** \brief Settings of ObjectSurfaceEstimation. */
+/** \brief Settings of ObjectSurfaceEstimation; as they stand here, the best mode. */
 struct PCL_SQ_EXPORTS EstimationOptions {
-  Decomposition decomposition = Decomposition::PRISMS;
+  Decomposition decomposition = Decomposition::PARTS;
   VoxelOptions voxels;
   PrismOptions prisms;
   bool exclusive_points = false; ///< whether a point counts for its smallest prism only
-  FitMode fit = FitMode::PAPER;
+  FitMode fit = FitMode::FULL; ///< for Decomposition::PRISMS and NONE
   PcaScope pca = PcaScope::OBJECT;
   CenterRule center = CenterRule::FRONT;
   PaperFitOptions paper_fit;   ///< for FitMode::PAPER
@@ -55,7 +55,7 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   /** \brief The paper's chain, as it stands (II-B, III): prisms, e1, e2 and a3. */
   static EstimationOptions paper();
   /** \brief The best this library can do with one view: points, outline and table,
-   * shapes and number of parts chosen by the data. */
+   * shapes and number of parts chosen by the data. The same as EstimationOptions{}. */
   static EstimationOptions best();
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is

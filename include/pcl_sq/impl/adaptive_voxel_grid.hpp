@@ -6,7 +6,7 @@
 
 #include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
-#include <pcl/console/print.h>
+#include <pcl/filters/impl/filter.hpp>
 #include <pcl/type_traits.h>
 
 #include <boost/mpl/size.hpp>
@@ -169,7 +169,10 @@ void AdaptiveVoxelGrid<PointT>::averagePoints(PointCloud& output) {
   const bool average_others = downsample_all_data_ && detail::HAS_MORE_THAN_XYZ<PointT>;
   leaf_layout_.assign(layout_.counts.size(), -1);
   detail::forEachVoxel(
-      *input_, *indices_, layout_, [&](pcl::index_t index, std::int32_t cell) {
+      detail::coordinatesOf(*input_),
+      *indices_,
+      layout_,
+      [&](pcl::index_t index, std::int32_t cell) {
         const PointT& point = (*input_)[static_cast<std::size_t>(index)];
         const auto voxel = static_cast<std::size_t>(cell);
         if (layout_.counts[voxel]++ == 0) {
