@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 
 using namespace pcl_sq::app;
 
@@ -137,9 +136,9 @@ Views findBoards(const Options& o) {
       views.left.push_back(a);
       views.right.push_back(b);
       views.world.push_back(board);
-    } else if (!quiet())
-      std::cerr << "no " << o.board << " chessboard in " << left << " and " << right
-                << "; the pair is left out\n";
+    } else
+      note("there is no " + o.board + " chessboard in both '" + left + "' and '" +
+           right + "'; the pair is left out");
   }
   if (views.world.size() < 4)
     throw Failure("the chessboard was found in " + std::to_string(views.world.size()) +
@@ -223,6 +222,8 @@ int work(const Options& o) {
   checkWritable(o.output);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const Views views = findBoards(o);
+  StageLine line;
+  line.show("calibrating");
   const Calibration c = calibrate(views, o.rational);
   if (c.T.at<double>(0) > 0.0)
     throw Failure("the second camera is left of the first; exchange the left and right "

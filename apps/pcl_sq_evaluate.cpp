@@ -53,7 +53,8 @@ void addOptions(CLI::App& cli, Options& o) {
   cli.add_option("--format", o.format, "What is printed")
       ->check(oneOf({"json", "table"}))
       ->capture_default_str();
-  cli.add_option("-o,--output", o.output, "Also write the JSON to a file")->type_name("FILE");
+  cli.add_option("-o,--output", o.output, "Also write the JSON to a file")
+      ->type_name("FILE");
   cli.add_option("--threads", o.threads, "0 = all cores")->check(wholeNumber(0, 1024));
 }
 
@@ -154,6 +155,8 @@ int work(const Options& o) {
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const TaperedUnion model = file.tapered();
+  StageLine line;
+  line.show("comparing");
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},
@@ -171,6 +174,7 @@ int work(const Options& o) {
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }
+  line.clear();
   if (!o.output.empty())
     writeTextFile(o.output, json.dump(2) + "\n");
   if (o.format == "json")

@@ -4,6 +4,7 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "summary.h"
 #include "value_checks.h"
 
 using namespace pcl_sq;
@@ -36,8 +37,16 @@ Input loadInput(const std::string& path,
       input.cloud = app::columnsOf(app::loadCloud(cloud_path));
     return input;
   }
+  app::StageLine line;
+  line.show(app::wordsFor("load"));
   const app::LoadedCloud cloud = app::loadCloud(path);
-  input.file = app::makeModel(cloud, path, model_options, 0.0).file;
+  app::ModelOptions options = model_options;
+  options.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(app::wordsFor(stage), share);
+  };
+  const app::ModelResult result = app::makeModel(cloud, path, options, 0.0);
+  app::printNotes(result);
+  input.file = result.file;
   input.cloud = app::columnsOf(cloud);
   return input;
 }
@@ -56,8 +65,11 @@ int plan(const std::string& input_path,
   if (scene.cloud.cols() > 0)
     scene.has_viewpoint = true; // unless told otherwise a cloud's frame is its camera's
   double milliseconds = 0.0;
+  app::StageLine line;
+  line.show("planning grasps");
   const GraspPlan plan =
       app::planGrasps(input.file.model, scene, options, milliseconds);
+  line.clear();
   if (!plan.ok())
     throw app::Failure(plan.failure);
   const std::string json = app::graspsToJson(

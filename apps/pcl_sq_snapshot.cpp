@@ -90,7 +90,8 @@ void configure(CLI::App& cli, Arguments& a) {
       ->check(app::number(0.0, 100.0))
       ->type_name("PX")
       ->capture_default_str();
-  cli.add_option("--title", a.options.title, "Large text at the top")->type_name("TEXT");
+  cli.add_option("--title", a.options.title, "Large text at the top")
+      ->type_name("TEXT");
   cli.add_option("--caption", a.options.caption, "Small text under the title");
 }
 
@@ -122,6 +123,12 @@ std::optional<Eigen::Vector3d> reported(const ModelFile& file,
   return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
+app::LoadedCloud readCloud(const std::string& path) {
+  app::StageLine line;
+  line.show("reading");
+  return app::loadCloud(path);
+}
+
 int takePictures(const Arguments& a) {
   SnapshotRenderer renderer(a.options);
   if (!a.model.empty()) {
@@ -137,7 +144,7 @@ int takePictures(const Arguments& a) {
     renderer.setOptions(options);
   }
   if (!a.cloud.empty())
-    app::addCloud(renderer, app::loadCloud(a.cloud));
+    app::addCloud(renderer, readCloud(a.cloud));
   if (a.turntable == 0) {
     renderer.save(a.output);
     return app::DONE;

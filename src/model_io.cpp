@@ -237,9 +237,12 @@ bool fromJson(const std::string& text,
   } catch (const Refusal& refusal) {
     if (why)
       *why = refusal.why;
-  } catch (const Json::exception& error) {
+  } catch (const Json::parse_error& error) {
     if (why)
-      *why = std::string("not valid JSON: ") + error.what();
+      *why = "not valid JSON, at byte " + std::to_string(error.byte);
+  } catch (const Json::exception&) {
+    if (why)
+      *why = "not valid JSON of a model: a member is of another type";
   }
   file = {};
   return false;

@@ -56,9 +56,11 @@ bool observeImage(Observation& o, std::string& why) {
       for (int c = 0; c < o.width * o.height; ++c)
         out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
       out.notes.push_back("nothing was found that stands on a table; all points are "
-                          "taken as the object");
+                          "taken as the object; give a region or a mask of it");
     } else
-      out.notes.push_back("the object is the largest thing that stands on the table");
+      out.notes.push_back(
+          "the object is the largest thing that stands on the table; a region or a "
+          "mask chooses another");
   } else {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)

@@ -100,7 +100,9 @@ bool observeObject(const CloudPoints& points,
         return fail("the cloud is no pinhole image in its camera's frame, so that its "
                     "mask cannot be used; give the intrinsics or leave out the mask");
       observed.notes.push_back(
-          "the organized cloud is no pinhole image; its points are taken as bare ones");
+          "the cloud is an image of points, but not one from its camera's place, so "
+          "its outline is not used; the camera's intrinsics or the cloud in the "
+          "camera's frame would help");
       return observeBare(o, reason) || fail(reason);
     }
     return observeImage(o, reason) || fail(reason);

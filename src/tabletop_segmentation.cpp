@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/tabletop_segmentation.hpp"
+#include "pcl_sq/tabletop_segmentation.h"
 
-#include "instantiate.h"
 #include "option_check.h"
 #include "voxel_clusters.h"
 
@@ -11,8 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-PCL_SQ_INSTANTIATE(TabletopSegmentation)
 
 namespace pcl_sq {
 

@@ -46,16 +46,18 @@ bool quiet();
  * stderr, each sentence once; silent with -q. May be called from any thread. */
 void note(const std::string& sentence);
 
-/** \brief The stage of long work on stderr, such as "fitting ..."; silent when stderr is
- * no terminal or -q was given. Gone when the object is. May be called from any thread. */
+/** \brief The stage of long work on stderr, such as "fitting ..."; silent when stderr
+ * is no terminal or -q was given. Gone when the object is. May be called from any
+ * thread. */
 class StageLine {
 public:
   StageLine() = default;
-  ~StageLine();
+  ~StageLine() { clear(); }
   StageLine(const StageLine&) = delete;
   StageLine& operator=(const StageLine&) = delete;
   /** \param[in] share done of the stage, 0 to 1 */
   void show(const std::string& stage, double share = 0.0);
+  void clear();
 
 private:
   std::string shown_;

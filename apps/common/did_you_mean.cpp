@@ -32,9 +32,8 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     last = row;
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1,
-                         row[j - 1] + 1,
-                         last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      row[j] = std::min(
+          {last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
@@ -45,7 +44,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 std::string closestName(const std::string& word,
                         const std::vector<std::string>& names) {
   const std::string meant = bare(word);
-  if (meant.empty() || meant.size() > LONGEST)
+  if (meant.size() < 2 || meant.size() > LONGEST)
     return {};
   std::string closest;
   std::size_t best = 1 + meant.size() / 3; // a third of the letters may be wrong

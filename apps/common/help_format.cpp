@@ -21,12 +21,33 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Input",
-       {"--calib",  "--calib-unit",  "--depth",  "--depth-unit", "--depth-scale",
-        "--cloud",  "--unit",        "--samples", "--truth",     "--mesh",
-        "--pose",   "--symmetry",    "--mesh-up", "--mesh-unit", "--list",
-        "--board",  "--square",      "--model",   "--baseline"}},
+       {"--calib",
+        "--calib-unit",
+        "--depth",
+        "--depth-unit",
+        "--depth-scale",
+        "--cloud",
+        "--unit",
+        "--samples",
+        "--truth",
+        "--mesh",
+        "--pose",
+        "--symmetry",
+        "--mesh-up",
+        "--mesh-unit",
+        "--list",
+        "--board",
+        "--square",
+        "--model",
+        "--baseline"}},
       {"Object",
-       {"--roi", "--box", "--mask", "--remove-plane", "--segment", "--click", "--color",
+       {"--roi",
+        "--box",
+        "--mask",
+        "--remove-plane",
+        "--segment",
+        "--click",
+        "--color",
         "--border-filter"}},
       {"View and frame", {"--intrinsics", "--viewpoint", "--table", "--up"}},
       {"Matching",
@@ -134,10 +155,9 @@ void groupOptions(CLI::App& cli) {
     const auto& names = option->get_lnames();
     for (const Group& group : groups())
       for (const char* name : group.options) {
-        const bool named =
-            !names.empty() && "--" + names.front() == std::string(name);
-        if (named && (std::string(group.title) != "Input" ||
-                      isInputOf(cli.get_name(), name)))
+        const bool named = !names.empty() && "--" + names.front() == std::string(name);
+        if (named &&
+            (std::string(group.title) != "Input" || isInputOf(cli.get_name(), name)))
           if (option->get_group() == "Options")
             option->group(group.title);
       }
@@ -182,9 +202,8 @@ std::string HelpFormat::make_option(const CLI::Option* option, bool positional) 
   return line + wrapped(text, COLUMN, COLUMN) + "\n";
 }
 
-std::string HelpFormat::make_help(const CLI::App* app,
-                                  std::string name,
-                                  CLI::AppFormatMode) const {
+std::string
+HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
   std::string usage = "Usage: " + name + " [OPTIONS]";
   std::string positionals;
   for (const CLI::Option* option : app->get_options())

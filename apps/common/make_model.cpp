@@ -88,12 +88,13 @@ ModelResult makeModel(const LoadedCloud& input,
   ModelResult result;
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
-  StageTimer timer(timings);
+  StageTimer timer(timings, options.estimation.progress);
   const Selection selection =
       timer.run("object", [&] { return chooseObject(input, options); });
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
-  estimation.setIndices(selection.indices);
+  if (selection.indices->size() < input.cloud->size())
+    estimation.setIndices(selection.indices);
   EstimationOptions settings = options.estimation;
   settings.view = makeView(options);
   settings.object_fit.fit.taper = options.taper;

@@ -23,8 +23,7 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       "--fit",
       options.fit,
       {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
-      "The paper's three parameters, or all eleven; full is the default of "
-      "--decomposition none");
+      "The paper's three parameters, the default of its chain, or all eleven");
   PaperFitOptions& fit = options.paper_fit;
   addChoice<Cost>(
       cli,

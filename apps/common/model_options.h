@@ -82,7 +82,4 @@ void writeOutputs(const LoadedCloud& input,
                   const ModelResult& result,
                   const ModelOptions& options);
 
-/** \brief The result for people, on stdout. */
-void printSummary(const ModelResult& result);
-
 } // namespace pcl_sq::app

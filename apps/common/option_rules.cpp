@@ -110,7 +110,9 @@ const std::vector<OptionRule>& optionRules() {
        "it goes with --decomposition prisms"},
       {{},
        {"--voxel-size"},
-       [](const Line& l) { return !isAny(l, {"--voxel-percent", "--divisions"}); },
+       [](const Line& l) {
+         return !isAny(l, {"--voxel-percent", "--divisions"});
+       },
        "give one of --voxel-size, --voxel-percent and --divisions"},
       {{},
        {"--voxel-percent"},
@@ -143,7 +145,9 @@ const std::vector<OptionRule>& optionRules() {
        "give one hint: --roi, --click or --color"},
       {{"pcl_sq_stereo"},
        {"--color"},
-       [](const Line& l) { return !isAny(l, {"--roi", "--click"}); },
+       [](const Line& l) {
+         return !isAny(l, {"--roi", "--click"});
+       },
        "give one hint: --roi, --click or --color"},
       {{"pcl_sq_stereo"},
        {"--roi", "--click", "--color"},
@@ -164,11 +168,13 @@ const std::vector<OptionRule>& optionRules() {
        [](const Line& l) {
          return decompositionOf(l) != "parts" || l.value("--segment") == "none";
        },
-       "it goes with --preset paper or --segment none; the best mode takes the outline"},
+       "it goes with --preset paper or --segment none; the best mode takes the "
+       "outline"},
       {{"pcl_sq_stereo"},
        {"--border-filter"},
        [](const Line& l) {
-         return decompositionOf(l) != "parts" || isAny(l, {"--object-cloud", "--panel"});
+         return decompositionOf(l) != "parts" ||
+                isAny(l, {"--object-cloud", "--panel"});
        },
        "it goes with --preset paper, or with --object-cloud or --panel"},
       {{"pcl_sq_stereo"},
@@ -245,7 +251,9 @@ const std::vector<OptionRule>& optionRules() {
        "give one of --mesh and --truth"},
       {{"pcl_sq_evaluate"},
        {"--samples"},
-       [](const Line& l) { return isAny(l, {"--truth", "--mesh"}); },
+       [](const Line& l) {
+         return isAny(l, {"--truth", "--mesh"});
+       },
        "it goes with --truth or --mesh"},
       {{"pcl_sq_render"},
        {"--mesh-up", "--mesh-unit"},

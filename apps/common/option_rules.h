@@ -30,7 +30,8 @@ struct OptionRule {
   std::vector<const char*> programs; ///< that it is about; empty: all that have them
   std::vector<const char*> options;
   bool (*holds)(const CommandLine&);
-  const char* cure; ///< "it goes with ...": what to do where the condition does not hold
+  const char*
+      cure; ///< "it goes with ...": what to do where the condition does not hold
 };
 
 /** \brief All rules of all programs. */

@@ -26,8 +26,8 @@ bool isName(const std::string& word, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), word) != names.end();
 }
 
-/** \brief The option that a message of the parser is about, nullptr if it is about none.
- * \param[in] message starts with the option's name */
+/** \brief The option that a message of the parser is about, nullptr if it is about
+ * none. \param[in] message starts with the option's name */
 const CLI::Option* optionOf(const std::string& message, const CLI::App& cli) {
   const CLI::Option* found = nullptr;
   for (const CLI::Option* option : cli.get_options()) {
@@ -86,11 +86,10 @@ std::string wrongCount(const CLI::Option& option, const CLI::App& cli) {
 bool endsEarly(const CLI::Option& option, const CLI::App& cli) {
   const std::vector<std::string> names = namesOf(cli);
   return option.get_items_expected_min() > 1 &&
-         std::any_of(option.results().begin(),
-                     option.results().end(),
-                     [&names](const std::string& value) {
-                       return isName(value, names);
-                     });
+         std::any_of(
+             option.results().begin(),
+             option.results().end(),
+             [&names](const std::string& value) { return isName(value, names); });
 }
 
 /** \brief An argument that no option and no place takes. */
@@ -99,7 +98,8 @@ std::string unknownArgument(const std::vector<std::string>& extras,
   for (std::string extra : extras)
     if (extra.size() > 1 && extra[0] == '-') {
       extra = extra.substr(0, extra.find('='));
-      return "there is no option " + app::quoted(extra) + didYouMean(extra, namesOf(cli));
+      return "there is no option " + app::quoted(extra) +
+             didYouMean(extra, namesOf(cli));
     }
   return app::quoted(extras.empty() ? std::string() : extras.front()) +
          " is one argument too many";
@@ -174,9 +174,9 @@ void checkValues(CLI::App& cli) {
     const std::string kind = kindOf(*option);
     option->check(CLI::Validator(
         [names, kind](std::string& value) {
-          return isName(value, names) ? "wants " + kind + ", but " +
-                                            app::quoted(value) + " follows it"
-                                      : std::string();
+          return isName(value, names)
+                     ? "wants " + kind + ", but " + app::quoted(value) + " follows it"
+                     : std::string();
         },
         ""));
   }

@@ -28,10 +28,11 @@ void clearLine() {
 
 } // namespace
 
-StageLine::~StageLine() {
+void StageLine::clear() {
   const std::lock_guard<std::mutex> lock(lineMutex());
   if (!shown_.empty())
     clearLine();
+  shown_.clear();
 }
 
 void StageLine::show(const std::string& stage, double share) {

@@ -43,7 +43,6 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
          "(also chosen by its own options)")
       ->default_str("best")
       ->check(oneOf({"best", "paper"}));
-  options.estimation.decomposition = Decomposition::PARTS;
   cli.add_option("--parts",
                  options.estimation.object_fit.parts,
                  "Number of superquadrics; 0: found")
@@ -89,10 +88,12 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
   cli.parse_complete_callback([&cli, &options] {
     const CommandLine line(cli);
     const bool paper = asksForPaper(line);
+    EstimationOptions& estimation = options.estimation;
     if (paper && !line.given("--decomposition"))
-      options.estimation.decomposition = Decomposition::PRISMS;
-    if (!paper && options.estimation.decomposition == Decomposition::NONE)
-      options.estimation.fit = FitMode::FULL;
+      estimation.decomposition = EstimationOptions::paper().decomposition;
+    if (!line.given("--fit") &&
+        (paper || estimation.decomposition == Decomposition::PRISMS))
+      estimation.fit = EstimationOptions::paper().fit;
   });
 }
 

@@ -2,10 +2,10 @@
 #include "stereo_front.h"
 
 #include "app.h"
-#include "value_checks.h"
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
+#include "value_checks.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -220,12 +220,14 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
 
 FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   FrontResult r;
-  StageTimer timer(r.timings_ms);
+  StageTimer timer(r.timings_ms, o.progress);
   if (o.depth.empty()) {
     const auto images = timer.run(
         "load", [&] { return std::make_pair(loadImage(o.left), loadImage(o.right)); });
     StereoReprojector reprojector(StereoCalibration::load(o.calib, o.calib_unit));
     reprojector.setOptions(o.stereo);
+    if (o.progress)
+      o.progress("match", 0.0);
     r.stereo = reprojector.compute(images.first, images.second);
   } else
     r.stereo = timer.run("load", [&] { return loadDepth(o); });

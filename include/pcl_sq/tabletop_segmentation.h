@@ -92,6 +92,5 @@ findTabletopObject(const Eigen::Matrix3Xf& points,
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/tabletop_segmentation.hpp"
-#endif

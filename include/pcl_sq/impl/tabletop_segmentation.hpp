@@ -3,7 +3,8 @@
 
 #include "pcl_sq/tabletop_segmentation.h"
 
-#include <pcl/console/print.h>
+// PCL's own body for point types that its library does not have compiled in
+#include <pcl/impl/pcl_base.hpp>
 
 namespace pcl_sq {
 
