@@ -20,7 +20,7 @@ const char* const EXAMPLES =
 
 struct Input {
   ModelFile file;
-  Eigen::Matrix3Xd cloud; ///< the whole scene; 3 x 0 without one
+  std::optional<app::LoadedCloud> cloud; ///< the whole scene
 };
 
 Input loadInput(const std::string& path,
@@ -32,15 +32,14 @@ Input loadInput(const std::string& path,
     if (!fromJson(app::readFile(path), input.file, &why))
       throw app::Failure("'" + path + "' is not a model: " + why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::columnsOf(app::loadCloud(cloud_path));
+      input.cloud = app::loadCloud(cloud_path);
     return input;
   }
   if (!cloud_path.empty())
     throw app::UsageError(
         "--cloud goes with a model file; the input is a cloud itself");
-  const app::LoadedCloud cloud = app::loadCloud(path);
-  input.file = app::makeModel(cloud, path, model_options, 0.0).file;
-  input.cloud = app::columnsOf(cloud);
+  input.cloud = app::loadCloud(path);
+  input.file = app::makeModel(*input.cloud, path, model_options, 0.0).file;
   return input;
 }
 
@@ -48,15 +47,14 @@ int plan(const std::string& input_path,
          const std::string& cloud_path,
          const app::ModelOptions& model_options,
          app::GraspOptions& options) {
-  options.table = model_options.table;
-  options.viewpoint = model_options.viewpoint;
+  options.frame = model_options.frame;
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
   const Input input = loadInput(input_path, cloud_path, model_options);
-  GraspScene scene = app::makeScene(options, input.file);
-  scene.cloud = input.cloud;
-  if (scene.cloud.cols() > 0)
-    scene.has_viewpoint = true; // unless told otherwise a cloud's frame is its camera's
+  GraspScene scene =
+      app::makeScene(options, input.file, input.cloud ? &*input.cloud : nullptr);
+  if (input.cloud)
+    scene.cloud = app::columnsOf(*input.cloud);
   double milliseconds = 0.0;
   const GraspPlan plan =
       app::planGrasps(input.file.model, scene, options, milliseconds);
@@ -100,9 +98,10 @@ int main(int argc, char** argv) {
             ->expected(4)
             ->delimiter(',')
             ->type_name("X,Y,W,H");
-        cli.add_flag("--remove-plane",
-                     model_options.remove_plane,
-                     "The object of a cloud stands on its largest plane");
+        cli.add_flag(
+            "--remove-plane",
+            model_options.remove_plane,
+            "The object is the largest thing that stands on a plane of a cloud");
         cli.add_option("--threads", model_options.threads, "For the fit, 0: all cores")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
