@@ -51,9 +51,8 @@ GraspPlan planOn(const app::LoadedCloud& input,
                  double& milliseconds) {
   app::GraspOptions options = arguments.grasp_options;
   options.planner.count = std::size_t(arguments.grasps);
-  options.viewpoint = arguments.options.viewpoint;
-  GraspScene scene = app::makeScene(options, file);
-  scene.has_viewpoint = true; // the origin unless told otherwise
+  options.frame = arguments.options.frame;
+  GraspScene scene = app::makeScene(options, file, &input);
   scene.cloud = app::columnsOf(input);
   return app::planGrasps(file.model, scene, options, milliseconds);
 }

@@ -3,6 +3,7 @@
 #include "app.h"
 #include "cloud_picture.h"
 #include "files.h"
+#include "frame_options.h"
 #include "value_checks.h"
 
 #include "pcl_sq/model_io.h"
@@ -27,8 +28,9 @@ const char* const EXAMPLES =
     "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
 
 struct Arguments {
-  std::string model, cloud, output, size = "1280x960", view = "iso", up;
+  std::string model, cloud, output, size = "1280x960", view = "iso";
   int turntable = 0;
+  app::FrameOptions frame;
   SnapshotOptions options;
 };
 
@@ -37,21 +39,6 @@ void parseSize(const std::string& text, SnapshotOptions& options) {
   if (std::sscanf(text.c_str(), "%4dx%4d%c", &options.width, &options.height, &rest) !=
       2)
     throw app::UsageError("--size " + text + " is not of the form 1280x960.");
-}
-
-/** \brief An axis such as "-y", or three numbers such as "0,-0.8,-0.6". */
-Eigen::Vector3d parseUp(const std::string& text) {
-  const bool negative = text.size() == 2 && text[0] == '-';
-  if (text.size() == (negative ? 2u : 1u) && text.back() >= 'x' && text.back() <= 'z') {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(text.back() - 'x');
-    return negative ? Eigen::Vector3d(-axis) : axis;
-  }
-  Eigen::Vector3d up;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &up.x(), &up.y(), &up.z(), &rest) != 3)
-    throw app::UsageError("--up " + text +
-                          " is neither an axis (x, -x, y, ...) nor three numbers.");
-  return up;
 }
 
 void configure(CLI::App& cli, Arguments& a) {
@@ -68,11 +55,7 @@ void configure(CLI::App& cli, Arguments& a) {
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
       ->check(app::oneOf({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
-  cli.add_option("--up",
-                 a.up,
-                 "Upward direction; if not given, the table's normal that the model "
-                 "file tells, else -y: cameras have y down")
-      ->type_name("x|-x|y|-y|z|-z|X,Y,Z");
+  app::addFrameOptions(cli, a.frame);
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
       ->check(app::wholeNumber(1, 1000))
       ->type_name("N");
@@ -100,8 +83,11 @@ void check(Arguments& a) {
   if (a.model.empty() && a.cloud.empty())
     throw app::UsageError("there is nothing to show; give a model, --cloud or both.");
   parseSize(a.size, a.options);
-  if (!a.up.empty())
-    a.options.up = parseUp(a.up);
+  if (const auto table = a.frame.tableOf())
+    a.options.up = table->normal;
+  if (const auto up = a.frame.upOf())
+    a.options.up = *up;
+  a.options.sensor = a.frame.viewpointOf();
   std::string why;
   if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
     throw app::UsageError(why + ".");
@@ -138,9 +124,15 @@ int takePictures(const Arguments& a) {
       throw app::Failure("'" + a.model + "' is no model file: " + why);
     app::addModel(renderer, file);
     SnapshotOptions options = a.options;
-    options.sensor = reported(file, "sensor");
-    if (const auto up = reported(file, "up"); up && up->norm() > 1e-6 && a.up.empty())
-      options.up = *up;
+    if (!options.sensor)
+      options.sensor = reported(file, "sensor");
+    if (a.frame.up.empty() && a.frame.table.empty()) {
+      if (const auto up = reported(file, "up"); up && up->norm() > 1e-6)
+        options.up = *up;
+      else if (file.table)
+        options.up =
+            Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(file.table->data()));
+    }
     renderer.setOptions(options);
   }
   if (!a.cloud.empty())

@@ -61,6 +61,21 @@ Gripper gripperFromToml(const std::string& path) {
   return gripper;
 }
 
+/** \brief The camera's place that the report of a model file tells of, if it is known.
+ */
+std::optional<Eigen::Vector3d> knownSensor(const ModelFile& file) {
+  const auto extra = nlohmann::json::parse(file.extra_json);
+  const auto report = extra.value("report", nlohmann::json::object());
+  if (!report.is_object() || !report.contains("sensor_known") ||
+      report["sensor_known"] != true || !report.contains("sensor"))
+    return std::nullopt;
+  const auto& place = report["sensor"];
+  if (!place.is_array() || place.size() != 3 || !place[0].is_number() ||
+      !place[1].is_number() || !place[2].is_number())
+    return std::nullopt;
+  return Eigen::Vector3d(place[0], place[1], place[2]);
+}
+
 } // namespace
 
 GraspOptions::GraspOptions() {
@@ -121,30 +136,36 @@ void checkGraspOptions(const GraspOptions& options) {
   std::string why;
   if (!options.planner.isValid(&why))
     throw UsageError(why);
-  if (!options.table.empty() &&
-      !(Eigen::Map<const Eigen::Vector3d>(options.table.data()).norm() > 1e-9))
-    throw UsageError("--table needs a normal that is not zero");
+  (void)options.frame.tableOf(); // refuse what makes no sense before the work
+  (void)options.frame.viewpointOf();
+  (void)options.frame.upOf();
   for (const std::string& path : {options.output, options.snapshot})
     if (!path.empty())
       checkWritable(path);
 }
 
-GraspScene makeScene(const GraspOptions& options, const ModelFile& file) {
+GraspScene makeScene(const GraspOptions& options,
+                     const ModelFile& file,
+                     const LoadedCloud* cloud) {
   GraspScene scene;
-  std::vector<double> table = options.table;
-  const auto extra = nlohmann::json::parse(file.extra_json);
-  const auto known = nlohmann::json::json_pointer("/report/table");
-  if (table.empty() && extra.contains(known) && extra[known].is_array())
-    table = extra[known].get<std::vector<double>>();
-  if (table.size() == 4) {
-    const Eigen::Map<const Eigen::Vector3d> normal(table.data());
+  if (const auto table = options.frame.tableOf()) {
     scene.has_table = true;
-    scene.table_normal = normal.normalized();
-    scene.table_offset = table[3] / normal.norm();
+    scene.table_normal = table->normal;
+    scene.table_offset = table->offset;
+  } else if (file.table) {
+    const auto& t = *file.table;
+    scene.has_table = true;
+    scene.table_normal = Eigen::Vector3d(t[0], t[1], t[2]);
+    scene.table_offset = t[3];
   }
-  if (!options.viewpoint.empty()) {
+  std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
+  if (!viewpoint)
+    viewpoint = knownSensor(file);
+  if (!viewpoint && cloud)
+    viewpoint = viewpointOf(*cloud);
+  if (viewpoint) {
     scene.has_viewpoint = true;
-    scene.viewpoint = Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data());
+    scene.viewpoint = *viewpoint;
   }
   return scene;
 }

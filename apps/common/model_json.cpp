@@ -60,8 +60,10 @@ std::string reportToJson(const ModelResult& result) {
   };
   if (result.up)
     json["up"] = numbers(*result.up);
-  if (result.sensor)
+  if (result.sensor) {
     json["sensor"] = numbers(*result.sensor);
+    json["sensor_known"] = result.sensor_known;
+  }
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),

@@ -126,9 +126,11 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       ->delimiter(',')
       ->type_name("BOX")
       ->check(number(-FARTHEST, FARTHEST));
-  cli.add_flag("--remove-plane",
-               options.remove_plane,
-               "Keep the largest cluster above the largest plane");
+  cli.add_flag(
+      "--remove-plane",
+      options.remove_plane,
+      "Take the largest thing that stands on a plane of the cloud; with --roi or "
+      "--box the thing in it");
   addPrismOptions(cli, options.estimation);
   cli.add_option("--grasp-points", options.grasp_points, "Points on the surface as PCD")
       ->type_name("FILE");

@@ -47,9 +47,9 @@ ObjectSize sizeOf(const ModelResult& result) {
   const OrientedBox box = boxAround(model, result.up);
   size.sides = 2.0 * box.half_sizes;
   size.upright = result.up.has_value();
-  if (result.report.view.table) {
-    const TableModel& table = *result.report.view.table;
-    size.sides.z() = model.support(table.normal) + table.offset;
+  if (result.file.table) {
+    const auto& table = *result.file.table;
+    size.sides.z() = model.support({table[0], table[1], table[2]}) + table[3];
     size.on_table = true;
   } else if (!size.upright) // no side is the height: the longest first
     std::sort(size.sides.data(), size.sides.data() + 3, std::greater<>());

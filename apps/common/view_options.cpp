@@ -58,33 +58,14 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
       ->type_name("FILE")
       ->check(existingFile());
 #endif
-  const auto numbers = [&cli](const char* name,
-                              std::vector<double>& values,
-                              int count,
-                              const char* type,
-                              const char* description) {
-    cli.add_option(name, values, description)
-        ->expected(count)
-        ->delimiter(',')
-        ->type_name(type)
-        ->check(number(-FARTHEST, FARTHEST));
-  };
-  numbers("--intrinsics",
-          options.intrinsics,
-          4,
-          "FX,FY,CX,CY",
-          "Camera of an organized cloud [px]; else found from the cloud");
-  numbers("--viewpoint",
-          options.viewpoint,
-          3,
-          "X,Y,Z",
-          "Camera's place [m]; else the cloud's own; the origin only where its points "
-          "look so");
-  numbers("--table",
-          options.table,
-          4,
-          "NX,NY,NZ,D",
-          "Table n.p + d = 0, n towards the camera; else found in organized clouds");
+  cli.add_option("--intrinsics",
+                 options.intrinsics,
+                 "Camera of an organized cloud [px]; else found from the cloud")
+      ->expected(4)
+      ->delimiter(',')
+      ->type_name("FX,FY,CX,CY")
+      ->check(number(-FARTHEST, FARTHEST));
+  addFrameOptions(cli, options.frame);
   cli.parse_complete_callback([&cli, &options] {
     const CommandLine line(cli);
     const bool paper = asksForPaper(line);
@@ -107,20 +88,9 @@ ViewOptions makeView(const ModelOptions& options) {
     camera.cy = options.intrinsics[3];
     view.camera = camera;
   }
-  if (options.viewpoint.size() == 3)
-    view.viewpoint = Eigen::Vector3d(
-        options.viewpoint[0], options.viewpoint[1], options.viewpoint[2]);
-  if (options.table.size() == 4) {
-    TableModel table;
-    table.normal =
-        Eigen::Vector3d(options.table[0], options.table[1], options.table[2]);
-    const double length = table.normal.norm();
-    if (!(length > 0.0))
-      throw Failure("the normal of --table must not be zero.");
-    table.normal /= length;
-    table.offset = options.table[3] / length;
-    view.table = table;
-  }
+  view.viewpoint = options.frame.viewpointOf();
+  view.table = options.frame.tableOf();
+  view.up = options.frame.upOf();
 #ifdef PCL_SQ_HAVE_OPENCV
   if (!options.mask.empty())
     view.mask = readMask(options.mask);
