@@ -194,6 +194,8 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  result.report.notes.insert(
+      result.report.notes.begin(), input.notes.begin(), input.notes.end());
   tellFrame(input, options, selection.table, result);
 
   ModelFile& file = result.file;

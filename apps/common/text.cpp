@@ -8,7 +8,8 @@ namespace pcl_sq::app {
 namespace {
 
 /** \brief Length of the UTF-8 character that \a text starts with if it can be shown:
- * neither a control character nor a mark that turns the direction of writing; else 0. */
+ * neither a control character nor a mark that turns the direction of writing; else 0.
+ */
 std::size_t shownCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
