@@ -2,6 +2,7 @@
 // Calibration of a stereo camera from pictures of a chessboard.
 #include "app.h"
 #include "files.h"
+#include "image_file.h"
 #include "value_checks.h"
 
 #include <opencv2/calib3d.hpp>
@@ -99,11 +100,7 @@ bool findCorners(const std::string& path,
                  const cv::Size& board,
                  cv::Size& size,
                  std::vector<cv::Point2f>& corners) {
-  // OpenCV would add a warning of its own
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty())
-    throw Failure("cannot read the image '" + path + "'.");
+  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
   if (size.empty())
     size = image.size();
   if (size != image.size())

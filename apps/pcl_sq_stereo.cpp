@@ -142,7 +142,10 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
         {"cx", front.stereo.intrinsics.cx},
         {"cy", front.stereo.intrinsics.cy},
         {"baseline", front.stereo.intrinsics.baseline}}}};
-  file.extra_json = extra.dump();
+  if (!front.notes.empty())
+    extra["stereo"]["notes"] = front.notes;
+  file.extra_json =
+      extra.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 PanelInput panelInput(const FrontResult& front,
@@ -258,7 +261,7 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   front_options.progress = model.estimation.progress;
   const FrontResult front = runFront(front_options, model.roi);
   line.clear();
-  for (const std::string& sentence : front.segment.notes)
+  for (const std::string& sentence : front.notes)
     note(sentence);
   writeFront(front, outputs);
   handOver(front, best, model);
@@ -297,6 +300,8 @@ int main(int argc, char** argv) {
       "--segment grabcut\n"
       "  pcl_sq_stereo left.png right.png --calib calib.yml --matcher sgbm "
       "--click 512,380 --cloud scene.pcd\n"
+      "  pcl_sq_stereo left.png right.png --calib left.yaml right.yaml -o model.json\n"
+      "  pcl_sq_stereo left.png right.png --intrinsics 500,500,320,240 --baseline .12\n"
       "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
       [&](CLI::App& cli) {
         addFrontOptions(cli, front);

@@ -6,7 +6,8 @@
 #include "value_checks.h"
 
 #ifdef PCL_SQ_HAVE_OPENCV
-#include <opencv2/core/utils/logger.hpp>
+#include "image_file.h"
+
 #include <opencv2/imgcodecs.hpp>
 #endif
 
@@ -19,11 +20,7 @@ namespace {
 
 #ifdef PCL_SQ_HAVE_OPENCV
 CellMask readMask(const std::string& path) {
-  // OpenCV would add a warning of its own
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty())
-    throw Failure("'" + path + "' is no image that can be read; --mask wants a PNG.");
+  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
   CellMask mask(image.cols, image.rows);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)

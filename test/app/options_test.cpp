@@ -236,7 +236,7 @@ TEST(OptionRules, RefuseWhatTheOtherOptionsMakeNeedless) {
   refuses("pcl_sq_stereo",
           "--click",
           {"l.png", "r.png", "--roi", "1,1,9,9", "--click", "3,3"});
-  refuses("pcl_sq_stereo", "--depth-unit", {"l.png", "r.png", "--depth-unit", "0.1"});
+  refuses("pcl_sq_stereo", "--depth-scale", {"l.png", "r.png", "--depth-scale", "0.1"});
 #endif
 }
 
