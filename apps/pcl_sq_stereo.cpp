@@ -4,9 +4,9 @@
 #include "files.h"
 #include "model_options.h"
 #include "panel.h"
-#include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "stereo_front.h"
+#include "summary.h"
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -231,6 +231,9 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
     writeCloud(outputs.cloud, *front.stereo.cloud);
   if (!outputs.mask.empty() && !front.segment.mask.empty())
     writeImage(outputs.mask, front.segment.mask);
+  else if (!outputs.mask.empty())
+    note("there is no outline of the object, so '" + outputs.mask +
+         "' is not written; give another hint");
   if (!outputs.histogram.empty())
     writeImage(outputs.histogram,
                plotDepthHistogram(front.histogram, k.fx * k.baseline));
@@ -251,7 +254,15 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   if (!front_options.depth.empty() && !outputs.disparity.empty())
     throw UsageError("a depth image has no disparity to write; leave out --disparity.");
   checkOutputs(outputs);
+  StageLine line;
+  model.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(wordsFor(stage), share);
+  };
+  front_options.progress = model.estimation.progress;
   const FrontResult front = runFront(front_options, model.roi);
+  line.clear();
+  for (const std::string& sentence : front.notes)
+    note(sentence);
   writeFront(front, outputs);
   handOver(front, best, model);
   const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
@@ -261,6 +272,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   const std::string input =
       front_options.left.empty() ? front_options.depth : front_options.left;
   ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
+  line.clear();
+  printNotes(result);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);
   if (!outputs.panel.empty())

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An object in an organized cloud: its pixels, outline, points and table.
 #include "depth_patch.h"
+#include "table_search.h"
+
+#include <algorithm>
 
 namespace pcl_sq::detail {
 
@@ -31,14 +34,28 @@ void fillHoles(CellMask& mask, const CellRect& box) {
 
 /** \brief Leaves of a region's pixels those of the thing that it was drawn around. */
 void keepTheThing(Observation& o) {
-  CellMask thing;
-  if (!findThingInRegion(o, o.out.pixels, o.view.table, thing))
+  const Standing found = findInRegion(o, o.out.pixels);
+  if (found.thing.empty())
     return;
+  CellMask thing(o.width, o.height);
+  for (const int c : found.thing)
+    thing.cells[std::size_t(c)] = 1;
   const int left_out = o.out.pixels.count() - thing.count();
   o.out.pixels = std::move(thing);
   if (left_out > 0)
     o.out.notes.push_back(std::to_string(left_out) +
                           " pixels of the region are the table's or another thing's");
+}
+
+/** \brief Height above the table from which on the outline is the object's own; a thin
+ * thing's is the edge of its top. */
+double lowestOutline(const ObservedObject& out) {
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
+    heights.push_back(out.table->height(out.points.col(i)));
+  const auto high = heights.begin() + std::ptrdiff_t(heights.size() * 9 / 10);
+  std::nth_element(heights.begin(), high, heights.end());
+  return std::min(3.0 * standingHeight(*out.table, out.depth), 0.5 * *high);
 }
 
 } // namespace
@@ -50,15 +67,20 @@ bool observeImage(Observation& o, std::string& why) {
   if (has_mask)
     out.pixels = o.view.mask;
   else if (o.object.empty()) {
-    out.table = o.view.table;
-    if (!findStandingObject(o.points, o.width, o.height, out.table, out.pixels)) {
-      out.table = o.view.table;
+    const Standing found = findInImage(o.points, o.width, o.height, o.view);
+    out.pixels = CellMask(o.width, o.height);
+    out.table = found.thing.empty() ? o.view.table : found.table;
+    for (const int c : found.thing)
+      out.pixels.cells[std::size_t(c)] = 1;
+    if (found.thing.empty()) {
       for (int c = 0; c < o.width * o.height; ++c)
         out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
       out.notes.push_back("nothing was found that stands on a table; all points are "
-                          "taken as the object");
+                          "taken as the object; give a region or a mask of it");
     } else
-      out.notes.push_back("the object is the largest thing that stands on the table");
+      out.notes.push_back(
+          "the object is the largest thing that stands on the table; a region or a "
+          "mask chooses another");
   } else {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)
@@ -88,6 +110,8 @@ bool observeImage(Observation& o, std::string& why) {
   else if (!out.table && o.view.find_table)
     findTable(o, box);
   checkTable(out);
+  if (!has_mask) // its pixels end above the table
+    findFoot(o, box, RIM_OF_DEPTH);
   findFreePixels(o, box, FREE_MARGIN + (has_mask ? 0 : RIM_OF_DEPTH));
   findGap(o, box);
   out.outline_sigma = has_mask ? o.view.mask_sigma : 1.5;
@@ -95,8 +119,7 @@ bool observeImage(Observation& o, std::string& why) {
   out.outline_offset = has_mask ? 0.0 : FATTENING;
   patch.markOthers(o);
   // just above the table the cluster ends before the object does
-  const double floor =
-      has_mask || !out.table ? -1e300 : 3.0 * standingHeight(*out.table, out.depth);
+  const double floor = has_mask || !out.table ? -1e300 : lowestOutline(out);
   out.contour = contourOf(out.pixels, [&](int x, int y) {
     const int c = y * o.width + x;
     if (!has_mask && o.finite(c) && out.table->height(o.at(c)) < floor)

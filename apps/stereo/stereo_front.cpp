@@ -8,13 +8,12 @@
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
+#include "value_checks.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
-#include <iostream>
-#include <map>
 
 namespace pcl_sq::app {
 namespace {
@@ -57,6 +56,8 @@ StereoResult matchPair(const FrontOptions& o, FrontResult& r, StageTimer& timer)
   });
   StereoReprojector reprojector(calibrationFor(o, left));
   reprojector.setOptions(o.stereo);
+  if (o.progress)
+    o.progress("match", 0.0);
   StereoResult result = reprojector.compute(left, right);
   const auto& notes = reprojector.getCalibration().getNotes();
   r.notes.insert(r.notes.end(), notes.begin(), notes.end());
@@ -161,28 +162,34 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
       ->expected(1, 2)
       ->type_name("FILE");
   cli.add_option("--calib-unit", o.calib_unit, "Length of its unit [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(1000.0))
       ->capture_default_str();
   cli.add_option("--baseline",
                  o.baseline,
                  "Distance of the cameras of a rectified pair [m], with --intrinsics "
                  "instead of --calib")
-      ->check(CLI::PositiveNumber);
-  const std::map<std::string, StereoMatcher> matchers{{"bm", StereoMatcher::BM},
-                                                      {"sgbm", StereoMatcher::SGBM}};
+      ->check(positiveNumber(1000.0));
+  addChoice<StereoMatcher>(cli,
+                           "--matcher",
+                           o.stereo.matcher,
+                           {{"bm", StereoMatcher::BM}, {"sgbm", StereoMatcher::SGBM}},
+                           "Block matching or semi-global");
   cli.add_option(
-         "--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
-      ->transform(CLI::CheckedTransformer(matchers).description(""))
-      ->type_name("NAME")
-      ->default_str("bm");
-  cli.add_option(
-      "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
-  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found");
-  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found");
+         "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto")
+      ->check(wholeNumber(0, 51))
+      ->capture_default_str();
+  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
+  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
   cli.add_option("--uniqueness", o.stereo.uniqueness, "Margin of the best match [%]")
+      ->check(wholeNumber(0, 100))
       ->capture_default_str();
   cli.add_option(
          "--left-right", o.stereo.left_right_tolerance, "Check [px]; negative: none")
+      ->check(wholeNumber(-1, 100))
       ->capture_default_str();
   cli.add_flag_function(
       "--refine,!--no-refine",
@@ -197,24 +204,23 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--depth-scale,--depth-unit",
                  o.depth_scale,
                  "Length of one step of it [m]; default: .001 of 16 bits, 1 of floats")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber(1000.0));
   cli.add_option(
          "--segment",
          o.segment,
          "How the object's outline is found; none: only the box of --roi counts")
-      ->type_name("none|color|grabcut")
       ->default_str("grabcut")
-      ->check(CLI::IsMember({"none", "color", "grabcut"}));
-  auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
-                    ->expected(2)
-                    ->delimiter(',')
-                    ->type_name("X,Y");
+      ->check(oneOf({"none", "color", "grabcut"}));
+  cli.add_option("--click", o.click, "Hint: a pixel of the object")
+      ->expected(2)
+      ->delimiter(',')
+      ->type_name("X,Y")
+      ->check(wholeNumber(0, MAX_PIXELS));
   cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
       ->expected(3)
       ->delimiter(',')
-      ->check(CLI::Range(0, 255))
-      ->type_name("R,G,B")
-      ->excludes(click);
+      ->check(wholeNumber(0, 255))
+      ->type_name("R,G,B");
   cli.add_flag("--border-filter",
                o.border_filter,
                "Texture-based filter of the object's rim (section IV)");
@@ -227,8 +233,6 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
   if (o.depth.empty()) {
     if (o.left.empty() || o.right.empty())
       throw UsageError("give a left and a right image (or --depth and --intrinsics).");
-    if (o.depth_scale > 0.0)
-      throw UsageError("--depth-scale is of a depth image; give --depth.");
     if (o.calib.empty() && (o.baseline <= 0.0 || o.intrinsics.size() != 4))
       throw UsageError("--calib is missing; give the calibration of the pair, or "
                        "--intrinsics and --baseline of a rectified one.");
@@ -237,9 +241,6 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
           "the calibration file says the baseline and the intrinsics; give "
           "either --calib or --intrinsics and --baseline.");
   } else {
-    if (!o.calib.empty() || o.baseline > 0.0)
-      throw UsageError("a depth image needs --intrinsics alone; leave out --calib and "
-                       "--baseline.");
     if (!o.right.empty())
       throw UsageError("give either a right image or --depth, not both.");
     if (o.intrinsics.size() != 4)
@@ -260,14 +261,11 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
 
 FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   FrontResult r;
-  StageTimer timer(r.timings_ms);
+  StageTimer timer(r.timings_ms, o.progress);
   if (o.depth.empty())
     r.stereo = matchPair(o, r, timer);
   else
     r.stereo = timer.run("load", [&] { return loadDepth(o, r.notes); });
-  if (!quiet())
-    for (const std::string& note : r.notes)
-      std::cerr << "pcl_sq_stereo: " << note << ".\n";
   r.timings_ms.insert(
       r.timings_ms.end(), r.stereo.timings_ms.begin(), r.stereo.timings_ms.end());
 
@@ -282,6 +280,7 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   else {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
     r.rect = r.segment.rect;
+    r.notes.insert(r.notes.end(), r.segment.notes.begin(), r.segment.notes.end());
     if (!r.segment.outlined) // a box has no outline that the object could touch
       r.segment.mask.release();
   }

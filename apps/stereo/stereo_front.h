@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pcl_sq/depth_histogram.h"
+#include "pcl_sq/progress.h"
 #include "pcl_sq/roi.h"
 #include "pcl_sq/stereo/object_segmenter.h"
 #include "pcl_sq/stereo/stereo_reprojector.h"
@@ -27,6 +28,7 @@ struct FrontOptions {
   std::vector<int> click, color;  ///< hints: pixel; red, green, blue
   std::string mask;               ///< mask image instead of a segmentation
   bool border_filter = false;
+  ProgressCallback progress; ///< is told the stages
 };
 
 /** \brief The object's points and where they come from. */
