@@ -1,30 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...]
 #   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...] [RECOMMENDS packages...])
-# One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
-# objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
-# library hides.
+# One library libpcl_sq_NAME, target pcl_sq::NAME, with an export set of its own (its
+# target proper is pcl_sq_NAME_library: pcl_sq_stereo is a program). Its objects are a
+# target too, pcl_sq_NAME_objects: unit tests link them and so see what the library hides.
 # FIND, PKGCONFIG and DEBIAN name what a user of the component's headers needs: one quoted
 # argument list of find_dependency() each, modules of pkg-config, packages of Debian. RECOMMENDS: Debian packages that the library itself uses
 # where they are installed.
 function(pcl_sq_component name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN;RECOMMENDS"
     ${ARGN})
-  set(target pcl_sq_${name})
-  add_library(${target}_objects OBJECT ${ARG_SOURCES})
-  set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_definitions(${target}_objects PRIVATE PCL_SQ_BUILDING)
-  target_include_directories(${target}_objects PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${target}_objects PUBLIC ${ARG_PUBLIC} ${ARG_PRIVATE})
-  pcl_sq_warnings(${target}_objects)
+  set(target pcl_sq_${name}_library)
+  set(objects pcl_sq_${name}_objects)
+  add_library(${objects} OBJECT ${ARG_SOURCES})
+  set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_definitions(${objects} PRIVATE PCL_SQ_BUILDING)
+  target_include_directories(${objects} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${objects} PUBLIC ${ARG_PUBLIC} ${ARG_PRIVATE})
+  pcl_sq_warnings(${objects})
 
-  add_library(${target} SHARED $<TARGET_OBJECTS:${target}_objects>)
+  add_library(${target} SHARED $<TARGET_OBJECTS:${objects}>)
   add_library(pcl_sq::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    OUTPUT_NAME pcl_sq_${name} EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
     INSTALL_RPATH "$ORIGIN") # a component finds core beside it, whatever the prefix
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  foreach(library ${target} ${target}_objects)
+  foreach(library ${target} ${objects})
     target_compile_features(${library} PUBLIC cxx_std_17)
     target_include_directories(${library} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
