@@ -11,9 +11,18 @@ namespace {
 
 constexpr std::size_t LOWEST = 20; ///< each how many-th of the object's pixels is low
 constexpr int STEPS = 8;           ///< from a low point down to the table
-constexpr double SEEN = 0.5; ///< of the low points, below which the table is seen
+constexpr double SEEN = 0.5;       ///< of the low points, below which the table is seen
 
 } // namespace
+
+double lowestOutline(const ObservedObject& out) {
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
+    heights.push_back(out.table->height(out.points.col(i)));
+  const auto high = heights.begin() + std::ptrdiff_t(heights.size() * 9 / 10);
+  std::nth_element(heights.begin(), high, heights.end());
+  return std::min(3.0 * standingHeight(*out.table, out.depth), 0.5 * *high);
+}
 
 void findFoot(Observation& o, const CellRect& box, int rim) {
   ObservedObject& out = o.out;
@@ -63,7 +72,8 @@ void findFoot(Observation& o, const CellRect& box, int rim) {
   // a pixel's height on an upright wall
   const Eigen::Vector3d ray =
       (out.points.rowwise().mean() - out.camera.center).normalized();
-  const double across = std::sqrt(std::max(1.0 - std::pow(ray.dot(table.normal), 2), 0.01));
+  const double across =
+      std::sqrt(std::max(1.0 - std::pow(ray.dot(table.normal), 2), 0.01));
   const double pixel = out.depth / std::sqrt(out.camera.fx * out.camera.fy);
   out.foot = standingHeight(table, out.depth) + rim * pixel / across;
 }
