@@ -3,6 +3,8 @@
 
 #include "pcl_sq/multi_superquadric.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,17 +20,21 @@ struct PartStatistics {
 };
 
 /** \brief The contents of a model file (schema "pcl_sq/model", version 1; version 2
- * where a part is tapered, so that no reader of version 1 takes it for untapered). */
+ * where a part is tapered, so that no reader of version 1 takes it for untapered;
+ * version 3 where the table is known). */
 struct PCL_SQ_EXPORTS ModelFile {
   MultiSuperquadric model;
   std::vector<PartStatistics> statistics; ///< one per part, or empty
-  std::string frame;                      ///< name of the coordinate frame
-  double distortion = 0.0;                ///< D of the union, Eq. (7) [m^1.5]
-  double rms_distance = 0.0;              ///< of the union [m]
-  std::string input_path;                 ///< file the points came from
-  std::size_t input_points = 0;           ///< points in it
-  std::size_t finite_points = 0;          ///< of them finite
-  std::string options_json = "{}";        ///< the options used, a JSON object
+  /** \brief The table it stands on, nx, ny, nz, d of n . p + d = 0 [m], n of unit
+   * length and away from the ground; where one was found. */
+  std::optional<std::array<double, 4>> table;
+  std::string frame;               ///< name of the coordinate frame
+  double distortion = 0.0;         ///< D of the union, Eq. (7) [m^1.5]
+  double rms_distance = 0.0;       ///< of the union [m]
+  std::string input_path;          ///< file the points came from
+  std::size_t input_points = 0;    ///< points in it
+  std::size_t finite_points = 0;   ///< of them finite
+  std::string options_json = "{}"; ///< the options used, a JSON object
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, milliseconds
   std::string extra_json = "{}"; ///< further members of the top level, a JSON object
 };

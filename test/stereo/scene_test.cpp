@@ -128,7 +128,7 @@ TEST(Evaluation, AModelIsPerfectAgainstItself) {
   shape.mesh = box.mesh;
   shape.symmetry = app::Symmetry::BOX;
   const app::ShapeFigures f =
-      app::evaluateShape(TaperedUnion(box.superquadrics), shape, 20000);
+      app::evaluateShape(MultiSuperquadric(box.superquadrics), shape, 20000);
   EXPECT_GT(f.iou, 0.995);
   EXPECT_LT(f.chamfer(), 5e-5);
   EXPECT_LT((f.model_size - f.true_size).norm(), 1e-4);
@@ -146,7 +146,8 @@ TEST(Evaluation, FiguresOfAKnownDifference) {
   MultiSuperquadric model = can.superquadrics;
   model.parts[0].semi_axes[0] *= 1.1; // 6.6 mm wider, volume 1.1 times
   model.parts[0].center.z() += 0.002;
-  const app::ShapeFigures f = app::evaluateShape(TaperedUnion(model), shape, 60000);
+  const app::ShapeFigures f =
+      app::evaluateShape(MultiSuperquadric(model), shape, 60000);
   EXPECT_NEAR(f.model_size.x() - f.true_size.x(), 0.0066, 1e-5);
   EXPECT_NEAR(f.center_error.z(), 0.002, 1e-6);
   EXPECT_NEAR(f.iou, (1 - 2 / 115.0) / (1.1 + 2 / 115.0), 0.01);

@@ -29,8 +29,7 @@ TEST(ObserveObject, PixelsWithoutDepthCarryNoInformation) {
   view.camera = scene.camera;
   view.correlation = 6.0; // so wide that pixels, not points, are what is counted
   ObservedObject whole, holes;
-  ASSERT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, whole));
+  ASSERT_TRUE(observeObject(scene.points, scene.width, scene.height, {}, view, whole));
   Random random(5);
   int gone = 0;
   for (Eigen::Index i = 0; i < scene.points.cols(); ++i)
@@ -38,8 +37,7 @@ TEST(ObserveObject, PixelsWithoutDepthCarryNoInformation) {
       scene.points.col(i).setConstant(std::numeric_limits<float>::quiet_NaN());
       ++gone;
     }
-  ASSERT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, holes));
+  ASSERT_TRUE(observeObject(scene.points, scene.width, scene.height, {}, view, holes));
   const double left = 1.0 - double(gone) / double(scene.points.cols());
   EXPECT_NEAR(holes.effective_points / whole.effective_points, left, 0.08);
 }
