@@ -32,13 +32,13 @@ Input loadInput(const std::string& path,
     if (!fromJson(app::readFile(path), input.file, &why))
       throw app::Failure("'" + path + "' is not a model: " + why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::columnsOf(app::loadCloud(cloud_path));
+      input.cloud = app::columnsOf(app::loadCloud(cloud_path, model_options.cloud));
     return input;
   }
   if (!cloud_path.empty())
     throw app::UsageError(
         "--cloud goes with a model file; the input is a cloud itself");
-  const app::LoadedCloud cloud = app::loadCloud(path);
+  const app::LoadedCloud cloud = app::loadCloud(path, model_options.cloud);
   input.file = app::makeModel(cloud, path, model_options, 0.0).file;
   input.cloud = app::columnsOf(cloud);
   return input;
@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
                        cloud_path,
                        "The scene of a model file: what was seen, what is in the way")
             ->type_name("FILE");
+        app::addCloudOptions(cli, model_options.cloud);
         app::addViewOptions(cli, model_options);
         cli.add_option(
                "--roi", model_options.roi, "Object in the image of a cloud [px]")

@@ -3,6 +3,7 @@
 #include "app.h"
 #include "cloud_picture.h"
 #include "files.h"
+#include "offset.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
@@ -28,6 +29,7 @@ const char* const EXAMPLES =
 struct Arguments {
   std::string model, cloud, output, size = "1280x960", view = "iso", up;
   int turntable = 0;
+  app::CloudOptions cloud_options;
   SnapshotOptions options;
 };
 
@@ -58,6 +60,7 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("MODEL.json");
   cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
       ->type_name("FILE");
+  app::addCloudOptions(cli, a.cloud_options);
   cli.add_option("-o,--output", a.output, "Picture, ends in .png")
       ->type_name("FILE")
       ->required();
@@ -123,20 +126,28 @@ std::optional<Eigen::Vector3d> reported(const ModelFile& file,
 
 int takePictures(const Arguments& a) {
   SnapshotRenderer renderer(a.options);
+  std::optional<app::LoadedCloud> cloud;
+  if (!a.cloud.empty())
+    cloud = app::loadCloud(a.cloud, a.cloud_options);
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
     if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
+    // pictures are made of floats
+    const Eigen::Vector3d offset = cloud ? cloud->offset : app::offsetOf(file.model);
+    file.model = app::moved(std::move(file.model), -offset);
     app::addModel(renderer, file);
     SnapshotOptions options = a.options;
     options.sensor = reported(file, "sensor");
+    if (options.sensor)
+      *options.sensor -= offset;
     if (const auto up = reported(file, "up"); up && up->norm() > 1e-6 && a.up.empty())
       options.up = *up;
     renderer.setOptions(options);
   }
-  if (!a.cloud.empty())
-    app::addCloud(renderer, app::loadCloud(a.cloud));
+  if (cloud)
+    app::addCloud(renderer, *cloud);
   if (a.turntable == 0) {
     renderer.save(a.output);
     return app::DONE;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app.h"
 
+#include "text.h"
+
 #include "pcl_sq/config.h"
 
 #include <pcl/console/print.h>
@@ -10,6 +12,7 @@
 #include <iostream>
 #include <mutex>
 #include <new>
+#include <set>
 
 #include <unistd.h>
 
@@ -17,7 +20,8 @@ namespace pcl_sq::app {
 
 namespace {
 bool quiet_requested = false;
-}
+std::string program_name;
+} // namespace
 
 int run(int argc,
         char** argv,
@@ -30,6 +34,7 @@ int run(int argc,
     std::cerr << name << ": " << sentence << '\n';
     return int(code);
   };
+  program_name = name;
   // PCL talks of its own accord; the user gets one sentence, from here
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   try {
@@ -64,6 +69,14 @@ int run(int argc,
 
 bool quiet() {
   return quiet_requested;
+}
+
+void note(const std::string& sentence) {
+  static std::mutex mutex;
+  static std::set<std::string> told;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (!quiet_requested && told.insert(sentence).second)
+    std::cerr << program_name << ": note: " << printable(sentence) << ".\n";
 }
 
 Progress::Progress(std::string what, std::size_t total)

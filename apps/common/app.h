@@ -38,6 +38,10 @@ int run(int argc,
 /** \brief Whether -q/--quiet was given. */
 bool quiet();
 
+/** \brief Tells the user something that is no failure, such as a fall-back: one line on
+ * stderr, each sentence once; silent with -q. May be called from any thread. */
+void note(const std::string& sentence);
+
 /** \brief A progress bar on stderr; silent when stderr is no terminal or -q was given.
  */
 class Progress {

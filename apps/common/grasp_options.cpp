@@ -147,7 +147,8 @@ GraspScene makeScene(const GraspOptions& options, const ModelFile& file) {
 Eigen::Matrix3Xd columnsOf(const LoadedCloud& input) {
   Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
   for (std::size_t i = 0; i < input.cloud->size(); ++i)
-    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
+    points.col(Eigen::Index(i)) =
+        (*input.cloud)[i].getVector3fMap().cast<double>() + input.offset;
   return points;
 }
 

@@ -81,10 +81,10 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
 
 } // namespace
 
-ModelResult makeModel(const LoadedCloud& input,
-                      const std::string& input_path,
-                      const ModelOptions& options,
-                      double load_ms) {
+ModelResult makeNearModel(const LoadedCloud& input,
+                          const std::string& input_path,
+                          const ModelOptions& options,
+                          double load_ms) {
   ModelResult result;
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
@@ -133,7 +133,6 @@ ModelResult makeModel(const LoadedCloud& input,
   file.input_path = input_path;
   file.input_points = input.cloud->size();
   file.finite_points = input.finite_points;
-  file.options_json = optionsToJson(options);
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
   if (options.taper)
@@ -142,7 +141,6 @@ ModelResult makeModel(const LoadedCloud& input,
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
-  file.extra_json = reportToJson(result);
   return result;
 }
 

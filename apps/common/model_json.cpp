@@ -90,8 +90,9 @@ std::string reportToJson(const ModelResult& result) {
       const TableModel& t = *report.view.table;
       json["table"] = {t.normal.x(), t.normal.y(), t.normal.z(), t.offset};
     }
-    json["notes"] = report.view.notes;
   }
+  if (report.view.points.cols() > 0 || !report.view.notes.empty())
+    json["notes"] = report.view.notes;
   if (result.taper)
     json["taper"] = {
         {"margin", result.taper->margin},
