@@ -3,9 +3,12 @@
 
 #include "cloud_options.h"
 
+#include "pcl_sq/superquadric.h"
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,5 +40,13 @@ LoadedCloud loadCloud(const std::string& path, const CloudOptions& options = {})
 
 /** \brief The same from bytes. \throw Failure, without the file's name in it */
 LoadedCloud makeCloud(Shape shape, const CloudOptions& options);
+
+/** \brief Where a cloud was seen from, as far as the file tells: from its rays, if it
+ * is an image, or its VIEWPOINT. Nothing where the file says the origin: so do files
+ * whose writers did not care. */
+std::optional<Eigen::Vector3d> viewpointOf(const LoadedCloud& input);
+
+/** \brief The coordinates where they are, as columns. */
+CloudPoints coordinatesOf(const LoadedCloud& input);
 
 } // namespace pcl_sq::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud_options.h"
 
+#include "value_checks.h"
+
 namespace pcl_sq::app {
 
 double CloudOptions::scale() const {
@@ -11,14 +13,7 @@ void addUnitOption(CLI::App& cli, CloudOptions& options) {
   cli.add_option("--unit",
                  options.unit,
                  "Unit of the coordinates in the input; results are always in metres")
-      ->type_name("mm|cm|m|in")
-      ->check(CLI::Validator(
-          [](const std::string& unit) {
-            const bool known =
-                unit == "mm" || unit == "cm" || unit == "m" || unit == "in";
-            return known ? std::string() : "'" + unit + "' is none of mm, cm, m and in";
-          },
-          ""))
+      ->check(oneOf({"mm", "cm", "m", "in"}))
       ->capture_default_str();
 }
 
@@ -27,7 +22,7 @@ void addCloudOptions(CLI::App& cli, CloudOptions& options) {
   cli.add_option("--samples",
                  options.samples,
                  "Points on the surface of a mesh (PLY, OBJ or STL with faces)")
-      ->check(CLI::Range(100, 10000000))
+      ->check(wholeNumber(100, 10000000))
       ->type_name("N")
       ->capture_default_str();
 }

@@ -23,15 +23,11 @@ ModelResult makeModel(const LoadedCloud& input,
       sentence.pop_back();
     throw Failure(sentence + "; " + doubt + ".");
   }
-  std::vector<std::string>& notes = result.report.view.notes;
-  notes.insert(notes.end(), input.notes.begin(), input.notes.end());
   const RoiBox& box = result.report.region;
   const std::string doubt =
       sizeDoubt("the object", (box.max - box.min).maxCoeff(), options.cloud);
-  if (!doubt.empty()) {
-    note(doubt);
-    notes.push_back(doubt);
-  }
+  if (!doubt.empty())
+    result.report.notes.push_back(doubt);
   result = moved(std::move(result), input.offset);
   result.file.options_json = optionsToJson(options);
   result.file.extra_json = reportToJson(result);

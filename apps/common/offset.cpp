@@ -59,9 +59,9 @@ GraspPlan moved(GraspPlan plan, const Eigen::Vector3d& by) {
 }
 
 ModelOptions moved(ModelOptions options, const Eigen::Vector3d& by) {
-  moveNumbers(options.viewpoint, by);
+  moveNumbers(options.frame.viewpoint, by);
   moveNumbers(options.box, by);
-  std::vector<double>& table = options.table;
+  std::vector<double>& table = options.frame.table;
   if (table.size() == 4)
     table[3] = movedOffset(table[3], Eigen::Vector3d(table[0], table[1], table[2]), by);
   return options;
@@ -69,6 +69,9 @@ ModelOptions moved(ModelOptions options, const Eigen::Vector3d& by) {
 
 ModelResult moved(ModelResult result, const Eigen::Vector3d& by) {
   result.file.model = moved(std::move(result.file.model), by);
+  if (auto& table = result.file.table)
+    (*table)[3] = movedOffset(
+        (*table)[3], Eigen::Vector3d((*table)[0], (*table)[1], (*table)[2]), by);
   if (result.sensor)
     *result.sensor += by;
   moveBox(result.report.region, by);
