@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper in one function, and the steps that are not elsewhere.
+#include "pcl_sq/impl/object_surface_estimation.hpp"
 #include "pcl_sq/impl/for_each_voxel.hpp"
 #include "pcl_sq/impl/grasp_point_filter.hpp"
-#include "pcl_sq/impl/object_surface_estimation.hpp"
 #include "pcl_sq/impl/prism_segmentation.hpp"
 
 #include "pcl_sq/fit_parts.h"
@@ -11,6 +11,12 @@
 namespace pcl_sq::detail {
 
 namespace {
+
+bool fail(const std::string& sentence, EstimationReport& report) {
+  report.failure = sentence;
+  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
+  return false;
+}
 
 /** \brief One estimation: the input, the settings and what is found. */
 class SurfaceEstimator {
@@ -24,7 +30,7 @@ public:
   bool estimate(MultiSuperquadric& model);
 
 private:
-  bool fail(const std::string& sentence);
+  bool fail(const std::string& sentence) { return detail::fail(sentence, report_); }
   bool crop();
   bool observe();
   bool decompose();
@@ -60,9 +66,8 @@ bool SurfaceEstimator::estimate(MultiSuperquadric& model) {
   // III-C, Figs. 3 and 4: voxels relative to the region, prisms of connected voxels
   found = found && (parts || timer.run("decompose", [&] { return decompose(); }));
   // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
-  found = found && timer.run("fit", [&] {
-    return parts ? fitObject(model) : fitParts(model);
-  });
+  found = found &&
+          timer.run("fit", [&] { return parts ? fitObject(model) : fitParts(model); });
   if (found)
     timer.run("evaluate", [&] {
       evaluate(model);
@@ -75,12 +80,6 @@ bool SurfaceEstimator::estimate(MultiSuperquadric& model) {
       return true;
     });
   return found;
-}
-
-bool SurfaceEstimator::fail(const std::string& sentence) {
-  report_.failure = sentence;
-  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
-  return false;
 }
 
 bool SurfaceEstimator::crop() {
@@ -253,12 +252,26 @@ void SurfaceEstimator::findGraspPoints(const MultiSuperquadric& model) {
 
 } // namespace
 
-bool estimateSurface(const EstimationInput& input,
+bool estimateSurface(const EstimationInput* input,
                      const EstimationOptions& options,
                      unsigned int threads,
                      MultiSuperquadric& model,
                      EstimationReport& report) {
-  return SurfaceEstimator(input, options, threads, report).estimate(model);
+  model = {};
+  report = {};
+  if (!input)
+    return fail("there is no input cloud; call setInputCloud first", report);
+  return SurfaceEstimator(*input, options, threads, report).estimate(model);
+}
+
+void setOptions(const EstimationOptions& options, EstimationOptions& target) {
+  std::string why;
+  if (options.isValid(&why))
+    target = options;
+  else
+    PCL_ERROR("[pcl_sq::ObjectSurfaceEstimation::setOptions] %s; the options stay as "
+              "they were.\n",
+              why.c_str());
 }
 
 } // namespace pcl_sq::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/for_each_voxel.hpp"
 #include "pcl_sq/impl/prism_segmentation.hpp"
+#include "pcl_sq/impl/for_each_voxel.hpp"
 
 namespace pcl_sq::detail {
 
@@ -52,11 +52,10 @@ bool segmentPrisms(const CoordinateMap& points,
     for (std::size_t p = 0; p < clusters.size(); ++p)
       clusters[p].indices.reserve(
           std::min(indices.size(), membership.pointsPerPrism()[p]));
-    forEachVoxel(
-        points, indices, layout, [&](pcl::index_t index, std::int32_t voxel) {
-          for (const std::uint32_t prism : membership.prismsOf(voxel))
-            clusters[prism].indices.push_back(index);
-        });
+    forEachVoxel(points, indices, layout, [&](pcl::index_t index, std::int32_t voxel) {
+      for (const std::uint32_t prism : membership.prismsOf(voxel))
+        clusters[prism].indices.push_back(index);
+    });
   } while (dropSmallest(clusters, options.min_points, prisms));
   if (prisms.empty())
     why = "No prism holds " + std::to_string(options.min_points) +

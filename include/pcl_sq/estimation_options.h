@@ -43,7 +43,7 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   VoxelOptions voxels;
   PrismOptions prisms;
   bool exclusive_points = false; ///< whether a point counts for its smallest prism only
-  FitMode fit = FitMode::FULL; ///< for Decomposition::PRISMS and NONE
+  FitMode fit = FitMode::FULL;   ///< for Decomposition::PRISMS and NONE
   PcaScope pca = PcaScope::OBJECT;
   CenterRule center = CenterRule::FRONT;
   PaperFitOptions paper_fit;   ///< for FitMode::PAPER

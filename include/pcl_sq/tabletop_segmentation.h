@@ -2,6 +2,8 @@
 #pragma once
 
 #include "pcl_sq/exports.h"
+#include "pcl_sq/impl/point_types.hpp"
+#include "pcl_sq/table_plane.h"
 
 #include <pcl/pcl_base.h>
 
@@ -11,15 +13,6 @@
 #include <vector>
 
 namespace pcl_sq {
-
-/** \brief The plane normal . p + offset = 0; the normal points to the viewer's side. */
-struct TablePlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit length
-  double offset = 0.0;                              ///< [m]
-  double signedDistance(const Eigen::Vector3d& p) const {
-    return normal.dot(p) + offset;
-  }
-};
 
 /** \brief Settings of TabletopSegmentation. */
 struct PCL_SQ_EXPORTS TabletopOptions {
@@ -41,6 +34,8 @@ struct PCL_SQ_EXPORTS TabletopOptions {
  */
 template <typename PointT>
 class TabletopSegmentation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   /** \brief Sets all options; kept as they were, with a PCL_ERROR, if not valid. */
   void setOptions(const TabletopOptions& options);
@@ -92,5 +87,5 @@ findTabletopObject(const Eigen::Matrix3Xf& points,
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/tabletop_segmentation.hpp"

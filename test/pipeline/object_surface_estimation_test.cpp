@@ -26,7 +26,8 @@ MultiSuperquadric estimate(Estimation& estimation) {
   return model;
 }
 
-std::string failureOf(const Cloud::Ptr& cloud, const EstimationOptions& options = EstimationOptions::paper()) {
+std::string failureOf(const Cloud::Ptr& cloud,
+                      const EstimationOptions& options = EstimationOptions::paper()) {
   Estimation estimation;
   estimation.setInputCloud(cloud);
   estimation.setOptions(options);
