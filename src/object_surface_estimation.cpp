@@ -56,7 +56,7 @@ private:
 };
 
 bool SurfaceEstimator::estimate(MultiSuperquadric& model) {
-  StageTimer timer(report_.timings_ms);
+  StageTimer timer(report_.timings_ms, options_.progress);
   // II-B: the points of the query region
   bool found = timer.run("crop", [&] { return crop(); });
   // the best mode looks at the whole view instead of the region's points alone
@@ -125,6 +125,7 @@ bool SurfaceEstimator::observe() {
                      report_.view,
                      &why))
     return fail(why);
+  report_.notes = report_.view.notes;
   report_.region.min = report_.view.points.rowwise().minCoeff();
   report_.region.max = report_.view.points.rowwise().maxCoeff();
   if (!report_.view.pixels.cells.empty()) {
@@ -151,6 +152,11 @@ bool SurfaceEstimator::fitObject(MultiSuperquadric& model) {
     return fail(std::to_string(report_.view.points.cols()) +
                 " points give no superquadric: they must span a volume");
   model = fit.model;
+  if (const int wanted = options.parts; int(model.size()) < wanted)
+    report_.notes.push_back(std::to_string(wanted) +
+                            " parts were asked for, but the "
+                            "points could be cut into " +
+                            std::to_string(model.size()) + " only");
   if (options.fit.taper)
     report_.tapered = fit.tapered;
   report_.parts.resize(fit.parts.size());
@@ -225,8 +231,14 @@ bool SurfaceEstimator::fitParts(MultiSuperquadric& model) {
     }
     report_.parts.push_back(std::move(part));
   }
-  if (!model.empty())
+  if (!model.empty()) {
+    if (const std::size_t left = fits.size() - model.size(); left > 0)
+      report_.notes.push_back(std::to_string(left) + " of " +
+                              std::to_string(fits.size()) +
+                              " prisms span no volume and gave no superquadric; their "
+                              "points are in none: fewer divisions hold more points");
     return true;
+  }
   return fail(std::to_string(object_.size()) + " points give no superquadric (" +
               toString(report_.parts.front().fit.termination) +
               "): at least ten are needed, and they must span a volume");

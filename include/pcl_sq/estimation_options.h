@@ -4,6 +4,7 @@
 #include "pcl_sq/fit_object.h"
 #include "pcl_sq/fit_options.h"
 #include "pcl_sq/prism.h"
+#include "pcl_sq/progress.h"
 
 namespace pcl_sq {
 
@@ -51,6 +52,7 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   ViewOptions view;            ///< for Decomposition::PARTS: what is known of the view
   ObjectFitOptions object_fit; ///< for Decomposition::PARTS
   double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
+  ProgressCallback progress;     ///< is told the stages of the work (optional)
 
   /** \brief The paper's chain, as it stands (II-B, III): prisms, e1, e2 and a3. */
   static EstimationOptions paper();

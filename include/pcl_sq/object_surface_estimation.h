@@ -29,7 +29,10 @@ struct PartReport {
 /** \brief What an estimation did, stage by stage. */
 struct EstimationReport {
   std::string failure; ///< why there is no model, a sentence; empty on success
-  RoiBox region;       ///< box that was divided [m]
+  /** \brief Fall-backs and what to do about them, one sentence each, those of the view
+   * among them. */
+  std::vector<std::string> notes;
+  RoiBox region;                 ///< box that was divided [m]
   std::size_t region_points = 0; ///< finite points in it
   VoxelLayout voxels;            ///< empty without a decomposition
   std::vector<Prism> prisms;     ///< empty without a decomposition
@@ -73,8 +76,10 @@ struct EstimationReport {
  * in the box. A whole organized cloud that is the object is said with all its indices.
  * For a rectangle of the image, RoiEstimator gives the points for setIndices() and the
  * box for setRegion(). What the view is known to hold besides, the table, the
- * viewpoint, the camera, is said in EstimationOptions::view. \tparam PointT point type
- * with x, y, z \ingroup pcl_sq
+ * viewpoint, the camera, is said in EstimationOptions::view.
+ *
+ * \tparam PointT point type with x, y, z
+ * \ingroup pcl_sq
  */
 template <typename PointT>
 class ObjectSurfaceEstimation : public pcl::PCLBase<PointT> {

@@ -197,3 +197,32 @@ TEST(ObjectSurfaceEstimation, InvalidOptionsAreRefusedAndTheOldOnesKept) {
   estimation.setOptions(options);
   EXPECT_EQ(estimation.getOptions().grasp_threshold, 0.05);
 }
+
+TEST(ObjectSurfaceEstimation, TellsItsStagesInOrder) {
+  std::vector<std::pair<std::string, double>> told;
+  EstimationOptions options = EstimationOptions::paper();
+  options.progress = [&told](const std::string& stage, double share) {
+    told.emplace_back(stage, share);
+  };
+  ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
+  estimation.setOptions(options);
+  estimation.setInputCloud(toCloud(visiblePoints(bottle(), 5000, 0.0005)));
+  MultiSuperquadric model;
+  ASSERT_TRUE(estimation.estimate(model));
+  std::vector<std::string> begun;
+  double last = 0.0;
+  for (const auto& [stage, share] : told) {
+    if (share == 0.0) {
+      begun.push_back(stage);
+      last = 0.0;
+    }
+    EXPECT_EQ(stage, begun.back());
+    EXPECT_GE(share, last);
+    EXPECT_LE(share, 1.0);
+    last = share;
+  }
+  std::vector<std::string> timed;
+  for (const auto& [stage, ms] : estimation.getReport().timings_ms)
+    timed.push_back(stage);
+  EXPECT_EQ(begun, timed);
+}
