@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkg-config git file
   libeigen3-dev libpcl-dev libopencv-dev libopencv-contrib-dev libvtk9-dev
-  nlohmann-json3-dev libcli11-dev libqhull-dev
+  nlohmann-json3-dev libcli11-dev libqhull-dev libyaml-cpp-dev
   libgtest-dev libbenchmark-dev libceres-dev
   libx11-dev libgl-dev xvfb libgl1-mesa-dri
   clang-format-14 doxygen help2man python3
