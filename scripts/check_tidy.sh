@@ -4,7 +4,7 @@
 # two cores: check_tidy.sh [FILE-PATTERN]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=build-tidy
+build="build-tidy"
 ./scripts/install_deps.sh clang clang-tidy-14 libomp-14-dev
 if [ ! -f "$build/build.ninja" ]; then
   cmake --preset tidy >/dev/null
