@@ -32,6 +32,16 @@ POSE = ("%YAML:1.0\n---\nT_mesh_to_rectleft: !!opencv-matrix\n   rows: 4\n   col
         "   dt: d\n   data: [ 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0.,\n"
         "       0., 0., 0., 1. ]\n")
 
+ROS = """image_width: 1024
+image_height: 768
+camera_name: {side}
+camera_matrix: {{rows: 3, cols: 3, data: [{f}, 0, {cx}, 0, {f}, {cy}, 0, 0, 1]}}
+distortion_model: plumb_bob
+distortion_coefficients: {{rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}}
+rectification_matrix: {{rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}}
+projection_matrix: {{rows: 3, cols: 4, data: [{f}, 0, {cx}, {move}, 0, {f}, {cy}, 0, 0, 0, 1, 0]}}
+"""
+
 
 def run(command, folder):
     environment = dict(os.environ, HOME=folder,
@@ -58,6 +68,9 @@ def prepare(folder):
     numbers = re.search(r"P2:.*?data: \[(.*?)\]", open(folder + "/bottle/calib.yml").read(),
                         re.S).group(1)
     f, _, cx, shift, _, _, cy = [float(n) for n in numbers.split(",")[:7]]
+    for side, move in (("left", 0.0), ("right", shift)):  # as ROS writes them
+        with open(folder + "/" + side + ".yaml", "w") as out:
+            out.write(ROS.format(side=side, f=f, cx=cx, cy=cy, move=move))
     with open(folder + "/calib.txt", "w") as out:
         for camera in "01":
             out.write("cam%s=[%g 0 %g; 0 %g %g; 0 0 1]\n" % (camera, f, cx, f, cy))
