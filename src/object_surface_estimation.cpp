@@ -150,7 +150,8 @@ bool SurfaceEstimator::fitObject(MultiSuperquadric& model) {
   ObjectFit fit = pcl_sq::fitObject(report_.view, options);
   if (fit.model.empty())
     return fail(std::to_string(report_.view.points.cols()) +
-                " points give no superquadric: they must span a volume");
+                " points give no superquadric: they must span a volume; give points of "
+                "more than one side of the object");
   model = fit.model;
   if (const int wanted = options.parts; int(model.size()) < wanted)
     report_.notes.push_back(std::to_string(wanted) +
@@ -239,9 +240,10 @@ bool SurfaceEstimator::fitParts(MultiSuperquadric& model) {
                               "points are in none: fewer divisions hold more points");
     return true;
   }
-  return fail(std::to_string(object_.size()) + " points give no superquadric (" +
-              toString(report_.parts.front().fit.termination) +
-              "): at least ten are needed, and they must span a volume");
+  return fail(std::to_string(object_.size()) +
+              " points give no superquadric: at least ten "
+              "are needed, and they must span a volume; give points of more than one "
+              "side of the object");
 }
 
 void SurfaceEstimator::evaluate(const MultiSuperquadric& model) {

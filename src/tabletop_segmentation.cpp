@@ -77,7 +77,9 @@ bool findTabletopObject(const CloudPoints& points,
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     finite += points.col(i).allFinite();
   if (finite < MIN_TABLE_SCENE)
-    return fail("there are too few finite points for a table and an object");
+    return fail(
+        "there are too few finite points for a table and an object; leave out the "
+        "plane removal");
   ViewOptions view;
   view.viewpoint = options.viewpoint;
   view.up = options.up;
