@@ -5,9 +5,11 @@
 #include "evaluation.h"
 #include "files.h"
 #include "mesh_reader.h"
+#include "offset.h"
 #include "pcl_sq/model_io.h"
 #include "pose_file.h"
 #include "truth.h"
+#include "value_checks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,43 +29,42 @@ struct Options {
   std::string symmetry = "none", format = "json";
   std::size_t samples = 60000;
   unsigned int threads = 0;
+  CloudOptions cloud_options;
 };
 
 void addOptions(CLI::App& cli, Options& o) {
   cli.add_option("model", o.model, "Model to judge (JSON)")
       ->required()
       ->type_name("FILE");
-  auto* truth = cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")
-                    ->type_name("FILE");
-  auto* mesh =
-      cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
-          ->type_name("FILE");
-  truth->excludes(mesh);
+  cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")->type_name("FILE");
+  cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
+      ->type_name("FILE");
   cli.add_option("--pose",
                  o.pose,
                  "Mesh to model's frame: 16 numbers (rows, commas between), a file of "
                  "them, or FILE.yml:NAME of an OpenCV file")
-      ->needs(mesh);
+      ->type_name("POSE");
   cli.add_option("--symmetry", o.symmetry, "Of the mesh; revolution is about its z")
-      ->check(CLI::IsMember({"none", "box", "revolution", "sphere"}))
-      ->needs(mesh)
+      ->check(oneOf({"none", "box", "revolution", "sphere"}))
       ->capture_default_str();
   cli.add_option("--cloud", o.cloud, "Measured points of the object")
       ->type_name("FILE");
+  addUnitOption(cli, o.cloud_options);
   cli.add_option("--samples", o.samples, "Points for each of volume and surfaces")
-      ->check(CLI::Range(1000, 10000000))
+      ->check(wholeNumber(1000, 10000000))
       ->capture_default_str();
   cli.add_option("--format", o.format, "What is printed")
-      ->check(CLI::IsMember({"json", "table"}))
+      ->check(oneOf({"json", "table"}))
       ->capture_default_str();
-  cli.add_option("-o,--output", o.output, "Also write the JSON to a file");
-  cli.add_option("--threads", o.threads, "0 = all cores")->check(CLI::Range(0, 1024));
+  cli.add_option("-o,--output", o.output, "Also write the JSON to a file")
+      ->type_name("FILE");
+  cli.add_option("--threads", o.threads, "0 = all cores")->check(wholeNumber(0, 1024));
 }
 
 ReferenceShape loadShape(const Options& o) {
   ReferenceShape shape;
   if (o.truth.empty()) {
-    shape.mesh = readMesh(o.mesh);
+    shape.mesh = readMesh(o.mesh, o.cloud_options);
     if (!o.pose.empty())
       readPose(o.pose, shape.rotation, shape.translation);
     if (!symmetryFromString(o.symmetry, &shape.symmetry))
@@ -157,6 +158,8 @@ int work(const Options& o) {
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const TaperedUnion model = file.tapered();
+  StageLine line;
+  line.show("comparing");
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},
@@ -167,13 +170,17 @@ int work(const Options& o) {
   if (!o.truth.empty() || !o.mesh.empty())
     json["shape"] = toJson(evaluateShape(model, loadShape(o), o.samples, o.threads));
   if (!o.cloud.empty()) {
-    const Eigen::Matrix3Xd points = finitePoints(loadCloud(o.cloud));
+    const LoadedCloud cloud = loadCloud(o.cloud, o.cloud_options);
+    const Eigen::Matrix3Xd points = finitePoints(cloud);
     if (points.cols() == 0)
       throw Failure("'" + o.cloud + "' holds no finite point.");
-    const CloudFigures c = evaluateCloud(model, points, o.threads);
+    ModelFile near = file;
+    near.model = moved(std::move(near.model), -cloud.offset);
+    const CloudFigures c = evaluateCloud(near.tapered(), points, o.threads);
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }
+  line.clear();
   if (!o.output.empty())
     writeTextFile(o.output, json.dump(2) + "\n");
   if (o.format == "json")

@@ -4,6 +4,8 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "summary.h"
+#include "value_checks.h"
 
 #include "pcl_sq/stage_timer.h"
 
@@ -38,8 +40,8 @@ app::ModelResult fit(const std::string& path,
                      const app::ModelOptions& options,
                      app::LoadedCloud& input) {
   std::vector<std::pair<std::string, double>> timings;
-  StageTimer timer(timings);
-  input = timer.run("load", [&] { return app::loadCloud(path); });
+  StageTimer timer(timings, options.estimation.progress);
+  input = timer.run("load", [&] { return app::loadCloud(path, options.cloud); });
   return app::makeModel(input, path, options, timings.back().second);
 }
 
@@ -57,13 +59,22 @@ GraspPlan planOn(const app::LoadedCloud& input,
 
 int fitOne(const Arguments& arguments) {
   app::LoadedCloud input;
-  app::ModelResult result = fit(arguments.clouds[0], arguments.options, input);
+  app::StageLine line;
+  app::ModelOptions options = arguments.options;
+  options.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(app::wordsFor(stage), share);
+  };
+  app::ModelResult result = fit(arguments.clouds[0], options, input);
+  line.clear();
+  app::printNotes(result);
   GraspPlan plan;
   double plan_ms = 0.0;
   if (arguments.grasps > 0) {
+    line.show("planning grasps");
     plan = planOn(input, arguments, result.file, plan_ms);
     app::addGrasps(plan, arguments.grasp_options, result.file);
   }
+  line.clear();
   app::writeOutputs(input, result, arguments.options);
   if (!app::quiet())
     app::printSummary(result);
@@ -90,10 +101,8 @@ int fitMany(const Arguments& arguments) {
       try {
         app::LoadedCloud input;
         lines[i] = toJson(fit(arguments.clouds[i], options, input).file, -1);
-      } catch (const std::bad_alloc&) {
-        errors[i] = "not enough memory for '" + arguments.clouds[i] + "'.";
       } catch (const std::exception& error) {
-        errors[i] = arguments.clouds[i] + ": " + error.what();
+        errors[i] = arguments.clouds[i] + ": " + app::sentenceOf(error);
       }
       progress.update(++done);
     }
@@ -156,12 +165,13 @@ int main(int argc, char** argv) {
         cli.add_flag("--jsonl",
                      arguments.jsonl,
                      "One JSON line per cloud, on stdout or in -o; clouds in parallel");
+        app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
         app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")
-            ->check(CLI::Range(0, 10000))
+            ->check(app::wholeNumber(0, 10000))
             ->capture_default_str();
         app::addGripperOptions(cli, arguments.grasp_options);
       },

@@ -4,6 +4,8 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "summary.h"
+#include "value_checks.h"
 
 using namespace pcl_sq;
 
@@ -32,14 +34,19 @@ Input loadInput(const std::string& path,
     if (!fromJson(app::readFile(path), input.file, &why))
       throw app::Failure("'" + path + "' is not a model: " + why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::loadCloud(cloud_path);
+      input.cloud = app::loadCloud(cloud_path, model_options.cloud);
     return input;
   }
-  if (!cloud_path.empty())
-    throw app::UsageError(
-        "--cloud goes with a model file; the input is a cloud itself");
-  input.cloud = app::loadCloud(path);
-  input.file = app::makeModel(*input.cloud, path, model_options, 0.0).file;
+  app::StageLine line;
+  line.show(app::wordsFor("load"));
+  input.cloud = app::loadCloud(path, model_options.cloud);
+  app::ModelOptions options = model_options;
+  options.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(app::wordsFor(stage), share);
+  };
+  const app::ModelResult result = app::makeModel(*input.cloud, path, options, 0.0);
+  app::printNotes(result);
+  input.file = result.file;
   return input;
 }
 
@@ -56,8 +63,11 @@ int plan(const std::string& input_path,
   if (input.cloud)
     scene.cloud = app::columnsOf(*input.cloud);
   double milliseconds = 0.0;
+  app::StageLine line;
+  line.show("planning grasps");
   const GraspPlan plan =
       app::planGrasps(input.file.model, scene, options, milliseconds);
+  line.clear();
   if (!plan.ok())
     throw app::Failure(plan.failure);
   const std::string json = app::graspsToJson(
@@ -82,7 +92,8 @@ int main(int argc, char** argv) {
       EXAMPLES,
       [&](CLI::App& cli) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
-            ->check(CLI::ExistingFile);
+            ->type_name("FILE")
+            ->check(app::existingFile());
         cli.add_option("input", input_path, "Model (JSON) or point cloud")
             ->required()
             ->type_name("FILE");
@@ -92,18 +103,20 @@ int main(int argc, char** argv) {
                        cloud_path,
                        "The scene of a model file: what was seen, what is in the way")
             ->type_name("FILE");
+        app::addCloudOptions(cli, model_options.cloud);
         app::addViewOptions(cli, model_options);
         cli.add_option(
                "--roi", model_options.roi, "Object in the image of a cloud [px]")
             ->expected(4)
             ->delimiter(',')
-            ->type_name("X,Y,W,H");
+            ->type_name("X,Y,W,H")
+            ->check(app::wholeNumber(-app::MAX_PIXELS, app::MAX_PIXELS));
         cli.add_flag(
             "--remove-plane",
             model_options.remove_plane,
             "The object is the largest thing that stands on a plane of a cloud");
         cli.add_option("--threads", model_options.threads, "For the fit, 0: all cores")
-            ->check(CLI::Range(0, 1024))
+            ->check(app::wholeNumber(0, 1024))
             ->capture_default_str();
       },
       [&] { return plan(input_path, cloud_path, model_options, options); });

@@ -4,6 +4,8 @@
 #include "cloud_picture.h"
 #include "files.h"
 #include "frame_options.h"
+#include "offset.h"
+#include "value_checks.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
@@ -29,6 +31,7 @@ const char* const EXAMPLES =
 struct Arguments {
   std::string model, cloud, output, size = "1280x960", view = "iso";
   int turntable = 0;
+  app::CloudOptions cloud_options;
   app::FrameOptions frame;
   SnapshotOptions options;
 };
@@ -45,6 +48,7 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("MODEL.json");
   cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
       ->type_name("FILE");
+  app::addCloudOptions(cli, a.cloud_options);
   cli.add_option("-o,--output", a.output, "Picture, ends in .png")
       ->type_name("FILE")
       ->required();
@@ -52,27 +56,28 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("WxH")
       ->capture_default_str();
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
-      ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
+      ->check(app::oneOf({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
   app::addFrameOptions(cli, a.frame);
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
-      ->check(CLI::Range(1, 1000))
+      ->check(app::wholeNumber(1, 1000))
       ->type_name("N");
   cli.add_option("--opacity", a.options.opacity, "Of the superquadrics")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("0..1")
+      ->check(app::number(0.0, 1.0))
+      ->type_name("N")
       ->capture_default_str();
   cli.add_option("--context",
                  a.options.context,
                  "How far around the object the cloud is shown, in object sizes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(app::number(0.0, 1e6))
       ->type_name("SIZES")
       ->capture_default_str();
   cli.add_option("--point-size", a.options.point_size, "[px]; 0: from the density")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(app::number(0.0, 100.0))
       ->type_name("PX")
       ->capture_default_str();
-  cli.add_option("--title", a.options.title, "Large text at the top");
+  cli.add_option("--title", a.options.title, "Large text at the top")
+      ->type_name("TEXT");
   cli.add_option("--caption", a.options.caption, "Small text under the title");
 }
 
@@ -107,17 +112,31 @@ std::optional<Eigen::Vector3d> reported(const ModelFile& file,
   return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
+app::LoadedCloud readCloud(const Arguments& a) {
+  app::StageLine line;
+  line.show("reading");
+  return app::loadCloud(a.cloud, a.cloud_options);
+}
+
 int takePictures(const Arguments& a) {
   SnapshotRenderer renderer(a.options);
+  std::optional<app::LoadedCloud> cloud;
+  if (!a.cloud.empty())
+    cloud = readCloud(a);
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
     if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
       throw app::Failure("'" + a.model + "' is no model file: " + why);
+    // pictures are made of floats
+    const Eigen::Vector3d offset = cloud ? cloud->offset : app::offsetOf(file.model);
+    file.model = app::moved(std::move(file.model), -offset);
     app::addModel(renderer, file);
     SnapshotOptions options = a.options;
     if (!options.sensor)
       options.sensor = reported(file, "sensor");
+    if (options.sensor)
+      *options.sensor -= offset;
     if (a.frame.up.empty() && a.frame.table.empty()) {
       if (const auto up = reported(file, "up"); up && up->norm() > 1e-6)
         options.up = *up;
@@ -127,8 +146,8 @@ int takePictures(const Arguments& a) {
     }
     renderer.setOptions(options);
   }
-  if (!a.cloud.empty())
-    app::addCloud(renderer, app::loadCloud(a.cloud));
+  if (cloud)
+    app::addCloud(renderer, *cloud);
   if (a.turntable == 0) {
     renderer.save(a.output);
     return app::DONE;

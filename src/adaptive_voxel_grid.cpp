@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/adaptive_voxel_grid.hpp"
+#include "pcl_sq/adaptive_voxel_grid.h"
 
-#include "instantiate.h"
+#include <pcl/point_types.h>
 
-PCL_SQ_INSTANTIATE(AdaptiveVoxelGrid)
+PCL_SQ_INSTANTIATE(template class, AdaptiveVoxelGrid)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/model_io.h"
 
+#include "json_text.h"
 #include "pcl_sq/tapered_superquadric.h"
 
 #include <nlohmann/json.hpp>
@@ -138,7 +139,10 @@ std::array<double, 4> tableFromJson(const Json& json) {
 }
 
 void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) {
-  const Json json = Json::parse(text);
+  Json json;
+  std::string why;
+  if (!detail::parseJson(text, json, &why))
+    throw Refusal{why};
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
   const int version = versionFromJson(json);
@@ -262,9 +266,12 @@ bool fromJson(const std::string& text,
   } catch (const Refusal& refusal) {
     if (why)
       *why = refusal.why;
-  } catch (const Json::exception& error) {
+  } catch (const Json::parse_error& error) {
     if (why)
-      *why = std::string("not valid JSON: ") + error.what();
+      *why = "not valid JSON, at byte " + std::to_string(error.byte);
+  } catch (const Json::exception&) {
+    if (why)
+      *why = "not valid JSON of a model: a member is of another type";
   }
   file = {};
   return false;

@@ -121,7 +121,9 @@ bool observeBare(Observation& o, std::string& why) {
       if (o.finite(c))
         columns.push_back(c);
   if (columns.size() < std::size_t(MIN_POINTS)) {
-    why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
+    why = "fewer than " + std::to_string(MIN_POINTS) +
+          " finite points are the object's; give more "
+          "of it";
     return false;
   }
   shuffle(o, columns);
@@ -149,7 +151,7 @@ bool observeBare(Observation& o, std::string& why) {
     viewpoint = Eigen::Vector3d::Zero();
     out.notes.push_back("no viewpoint is given; the points lie before the origin "
                         "and each ray from there meets them once: it is taken as the "
-                        "camera's place");
+                        "camera's place; give it if it is another");
   }
   out.viewpoint_known = bool(viewpoint);
   if (!viewpoint) {
@@ -158,15 +160,17 @@ bool observeBare(Observation& o, std::string& why) {
       viewpoint.reset();
   }
   if (viewpoint && !out.viewpoint_known)
-    out.notes.push_back("no viewpoint is given; the points show one side of something, "
-                        "and the camera is taken to be on it");
+    out.notes.push_back(
+        "no viewpoint is given; the points show one side of something, "
+        "and the camera is taken to be on it; give its place if it is another");
   if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();
   const double distance = (mean - *viewpoint).norm();
   if (!(distance > 0.5 * out.extent)) {
     out.notes.push_back(
-        "the viewpoint lies inside the object; its outline is not used");
+        "the viewpoint lies inside the object, so its outline is not used; give the "
+        "camera's place in the cloud's frame");
     return true;
   }
   out.effective_points /= sharingOfErrors(out.points);

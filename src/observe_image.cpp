@@ -71,9 +71,11 @@ bool observeImage(Observation& o, std::string& why) {
       for (int c = 0; c < o.width * o.height; ++c)
         out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
       out.notes.push_back("nothing was found that stands on a table; all points are "
-                          "taken as the object");
+                          "taken as the object; give a region or a mask of it");
     } else
-      out.notes.push_back("the object is the largest thing that stands on the table");
+      out.notes.push_back(
+          "the object is the largest thing that stands on the table; a region or a "
+          "mask chooses another");
   } else {
     out.pixels = CellMask(o.width, o.height);
     for (const int c : o.object)
@@ -84,7 +86,7 @@ bool observeImage(Observation& o, std::string& why) {
   const CellRect box = boundingRect(out.pixels);
   if (box.area() == 0) {
     why = has_mask ? "the mask is empty; mark the object's pixels"
-                   : "the object has no finite point";
+                   : "the object has no finite point; give another region";
     return false;
   }
   if (!has_mask)
@@ -99,7 +101,8 @@ bool observeImage(Observation& o, std::string& why) {
   choosePoints(o, box, patch, rim);
   if (out.points.cols() < MIN_IMAGE_POINTS) {
     why = "fewer than " + std::to_string(MIN_IMAGE_POINTS) + " points lie under the " +
-          (has_mask ? "mask; it must cover the object" : "object's pixels");
+          (has_mask ? "mask; it must cover the object"
+                    : "object's pixels; give a larger region, or a cloud from nearer");
     return false;
   }
   measure(out);

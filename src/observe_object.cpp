@@ -124,7 +124,8 @@ bool observeObject(const CloudPoints& points,
           "the intrinsics or leave out the mask");
     if (organized)
       observed.notes.push_back(
-          "the organized cloud is no pinhole image; its points are taken as bare ones");
+          "the cloud is no image of a camera, although it has rows, so its outline is "
+          "not used; give the camera's intrinsics if it is one");
     Observation o{points, width, height, object, view, observed};
     return observeBare(o, reason) || fail(reason);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/roi_crop.hpp"
+#include "pcl_sq/roi_crop.h"
 
-#include "instantiate.h"
+#include <pcl/point_types.h>
 
-PCL_SQ_INSTANTIATE(RoiCrop)
+PCL_SQ_INSTANTIATE(template class, RoiCrop)

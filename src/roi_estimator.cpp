@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/roi_estimator.hpp"
+#include "pcl_sq/roi_estimator.h"
 
-#include "instantiate.h"
+#include <pcl/point_types.h>
 
 namespace pcl_sq {
 
@@ -35,4 +35,4 @@ bool PixelRays::isValid() const {
 
 } // namespace pcl_sq
 
-PCL_SQ_INSTANTIATE(RoiEstimator)
+PCL_SQ_INSTANTIATE(template class, RoiEstimator)

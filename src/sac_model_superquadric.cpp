@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/sac_model_superquadric.hpp"
+#include "pcl_sq/sac_model_superquadric.h"
 
-#include "instantiate.h"
+#include <pcl/point_types.h>
 
-PCL_SQ_INSTANTIATE(SampleConsensusModelSuperquadric)
+PCL_SQ_INSTANTIATE(template class, SampleConsensusModelSuperquadric)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/tabletop_segmentation.hpp"
+#include "pcl_sq/tabletop_segmentation.h"
 
 #include "camera_pose.h"
-#include "instantiate.h"
 #include "observe_parts.h"
 #include "option_check.h"
 #include "table_search.h"
-
-PCL_SQ_INSTANTIATE(TabletopSegmentation)
 
 namespace pcl_sq {
 
@@ -80,7 +77,9 @@ bool findTabletopObject(const CloudPoints& points,
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     finite += points.col(i).allFinite();
   if (finite < MIN_TABLE_SCENE)
-    return fail("there are too few finite points for a table and an object");
+    return fail(
+        "there are too few finite points for a table and an object; leave out the "
+        "plane removal");
   ViewOptions view;
   view.viewpoint = options.viewpoint;
   view.up = options.up;

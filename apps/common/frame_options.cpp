@@ -3,6 +3,7 @@
 #include "frame_options.h"
 
 #include "app.h"
+#include "value_checks.h"
 
 #include <cstdio>
 
@@ -21,7 +22,7 @@ std::optional<Eigen::Vector3d> FrameOptions::viewpointOf() const {
   if (viewpoint.empty())
     return std::nullopt;
   if (!finite(viewpoint))
-    throw UsageError("--viewpoint needs three finite numbers");
+    throw UsageError("--viewpoint wants three finite numbers.");
   return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(viewpoint.data()));
 }
 
@@ -31,7 +32,7 @@ std::optional<TableModel> FrameOptions::tableOf() const {
   const Eigen::Map<const Eigen::Vector3d> normal(table.data());
   const double length = normal.norm();
   if (!finite(table) || !(length > 1e-9))
-    throw UsageError("--table needs finite numbers and a normal that is not zero");
+    throw UsageError("--table wants finite numbers and a normal that is not zero.");
   TableModel plane;
   plane.normal = normal / length;
   plane.offset = table[3] / length;
@@ -57,7 +58,7 @@ std::optional<Eigen::Vector3d> FrameOptions::upOf() const {
     throw UsageError("--up " + up +
                      " is neither an axis (x, -x, y, ...) nor three numbers.");
   if (!direction.allFinite() || !(direction.norm() > 1e-9))
-    throw UsageError("--up needs finite numbers that are not all zero");
+    throw UsageError("--up wants finite numbers that are not all zero.");
   return direction;
 }
 
@@ -70,7 +71,8 @@ void addFrameOptions(CLI::App& cli, FrameOptions& options) {
     cli.add_option(name, values, description)
         ->expected(count)
         ->delimiter(',')
-        ->type_name(type);
+        ->type_name(type)
+        ->check(number(-FARTHEST, FARTHEST));
   };
   numbers("--viewpoint",
           options.viewpoint,

@@ -2,6 +2,7 @@
 #include "app.h"
 #include "files.h"
 #include "grasp_output.h"
+#include "value_checks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +23,7 @@ std::string presetList() {
 /** \brief A number of a TOML file. */
 double numberOf(const CLI::ConfigItem& item, const std::string& path) {
   double number = 0.0;
-  if (item.inputs.size() != 1 || !CLI::detail::lexical_cast(item.inputs[0], number))
+  if (item.inputs.size() != 1 || !parseNumber(item.inputs[0], number))
     throw UsageError("'" + path + "': " + item.name + " is not a number");
   return number;
 }
@@ -101,21 +102,25 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
       ->default_str(options.gripper.name);
   cli.add_option("--friction",
                  options.planner.friction,
-                 "Coefficient between finger and object, 0.05 to 2")
+                 "Coefficient between finger and object")
+      ->check(number(0.05, 2.0))
       ->capture_default_str();
   cli.add_option("--clearance",
                  options.planner.clearance,
                  "Least distance of the hand to table and obstacles [m]")
+      ->check(number(0.0, 1.0))
       ->capture_default_str();
   cli.add_option("--min-observed",
                  options.planner.min_observed,
-                 "Least share of the contacts that the camera saw, 0 to 1")
+                 "Least share of the contacts that the camera saw")
+      ->check(number(0.0, 1.0))
       ->capture_default_str();
 }
 
 void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
   cli.add_option("-o,--output", options.output, "Grasps as JSON")->type_name("FILE");
   cli.add_option("--count", options.planner.count, "Most grasps to give")
+      ->check(wholeNumber(1, 10000))
       ->capture_default_str();
   cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
       ->type_name("DIR");
@@ -156,8 +161,10 @@ GraspScene makeScene(const GraspOptions& options,
   std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
   if (!viewpoint)
     viewpoint = knownSensor(file);
-  if (!viewpoint && cloud)
-    viewpoint = viewpointOf(*cloud);
+  if (!viewpoint && cloud) {
+    if ((viewpoint = viewpointOf(*cloud)))
+      *viewpoint += cloud->offset;
+  }
   if (viewpoint) {
     scene.has_viewpoint = true;
     scene.viewpoint = *viewpoint;
@@ -168,7 +175,8 @@ GraspScene makeScene(const GraspOptions& options,
 Eigen::Matrix3Xd columnsOf(const LoadedCloud& input) {
   Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
   for (std::size_t i = 0; i < input.cloud->size(); ++i)
-    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
+    points.col(Eigen::Index(i)) =
+        (*input.cloud)[i].getVector3fMap().cast<double>() + input.offset;
   return points;
 }
 

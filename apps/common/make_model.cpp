@@ -123,7 +123,9 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   if (!rect.empty()) {
     selection.has_region = true;
     if (!openAperture(input, options, rect, selection))
-      throw Failure("the --roi holds no cluster of points at one depth.");
+      throw Failure(
+          "the --roi holds no cluster of points at one depth; draw it around the "
+          "object, where the cloud has points.");
   } else {
     selection.indices->resize(cloud.size());
     std::iota(selection.indices->begin(), selection.indices->end(), 0);
@@ -162,19 +164,20 @@ void tellFrame(const LoadedCloud& input,
 
 } // namespace
 
-ModelResult makeModel(const LoadedCloud& input,
-                      const std::string& input_path,
-                      const ModelOptions& options,
-                      double load_ms) {
+ModelResult makeNearModel(const LoadedCloud& input,
+                          const std::string& input_path,
+                          const ModelOptions& options,
+                          double load_ms) {
   ModelResult result;
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
-  StageTimer timer(timings);
+  StageTimer timer(timings, options.estimation.progress);
   const Selection selection =
       timer.run("object", [&] { return chooseObject(input, options); });
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
-  estimation.setIndices(selection.indices);
+  if (selection.indices->size() < input.cloud->size())
+    estimation.setIndices(selection.indices);
   EstimationOptions settings = options.estimation;
   settings.view = makeView(options);
   if (selection.table)
@@ -193,6 +196,8 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  result.report.notes.insert(
+      result.report.notes.begin(), input.notes.begin(), input.notes.end());
   tellFrame(input, options, selection.table, result);
 
   ModelFile& file = result.file;
@@ -209,7 +214,6 @@ ModelResult makeModel(const LoadedCloud& input,
   file.input_path = input_path;
   file.input_points = input.cloud->size();
   file.finite_points = input.finite_points;
-  file.options_json = optionsToJson(options);
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
   if (options.taper)
@@ -218,7 +222,6 @@ ModelResult makeModel(const LoadedCloud& input,
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
-  file.extra_json = reportToJson(result);
   return result;
 }
 

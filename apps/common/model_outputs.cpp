@@ -2,6 +2,7 @@
 #include "app.h"
 #include "files.h"
 #include "model_options.h"
+#include "offset.h"
 
 #include "pcl_sq/grasp_point_filter.h"
 
@@ -13,11 +14,26 @@
 
 #include <pcl/io/pcd_io.h>
 
-#include <cstdio>
-
 namespace pcl_sq::app {
 
 namespace {
+
+/** \brief The model where the cloud's floats are. */
+ModelFile nearFile(const LoadedCloud& input, const ModelResult& result) {
+  ModelFile file = result.file;
+  file.model = moved(std::move(file.model), -input.offset);
+  return file;
+}
+
+/** \brief Says of a file of floats that it cannot hold georeferenced coordinates. */
+void tellOffset(const std::string& path, const Eigen::Vector3d& offset) {
+  if (offset.isZero())
+    return;
+  char text[120];
+  std::snprintf(
+      text, sizeof(text), "%.0f %.0f %.0f m", offset.x(), offset.y(), offset.z());
+  note("'" + path + "' holds single precision: its coordinates are less by " + text);
+}
 
 void writeGraspPoints(const std::string& path,
                       const LoadedCloud& input,
@@ -28,6 +44,7 @@ void writeGraspPoints(const std::string& path,
   filter.setModel(model);
   pcl::PointCloud<PointGrasp> points;
   filter.describe(indices, points);
+  tellOffset(path, input.offset);
   if (points.empty())
     throw Failure("no point lies on the model's surface; '" + path +
                   "' is not written.");
@@ -44,10 +61,11 @@ void writeSnapshot(const std::string& path,
   SnapshotOptions picture;
   if (result.up)
     picture.up = *result.up;
-  picture.sensor = result.sensor;
+  if (result.sensor)
+    picture.sensor = *result.sensor - input.offset;
   SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
-  addModel(renderer, result.file);
+  addModel(renderer, nearFile(input, result));
   renderer.save(path);
 }
 #endif
@@ -60,55 +78,22 @@ void writeOutputs(const LoadedCloud& input,
   if (!options.output.empty())
     writeTextFile(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
-    writeGraspPoints(
-        options.grasp_points, input, result.file.model, result.report.grasp_indices);
+    writeGraspPoints(options.grasp_points,
+                     input,
+                     nearFile(input, result).model,
+                     result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  if (!options.mesh.empty())
-    writeMesh(options.mesh, meshesOf(result.file));
+  const std::string format = extensionOf(options.mesh);
+  const bool single_precision = format == ".ply" || format == ".stl";
+  if (!options.mesh.empty()) {
+    writeMesh(options.mesh,
+              meshesOf(single_precision ? nearFile(input, result) : result.file));
+    if (single_precision)
+      tellOffset(options.mesh, input.offset);
+  }
   if (!options.snapshot.empty())
     writeSnapshot(options.snapshot, input, result);
 #endif
-}
-
-void printSummary(const ModelResult& result) {
-  const ModelFile& file = result.file;
-  std::printf("%s: %zu points, %zu of them the object, %zu superquadric%s\n",
-              file.input_path.c_str(),
-              file.input_points,
-              result.report.region_points,
-              file.model.size(),
-              file.model.size() == 1 ? "" : "s");
-  std::printf("  part  points   size along its axes [mm]   e1    e2    rms [mm]\n");
-  for (std::size_t i = 0; i < file.model.size(); ++i) {
-    const Superquadric& s = file.model.parts[i];
-    const PartStatistics& statistics = file.statistics[i];
-    std::printf("  %4zu  %6zu   %7.1f %7.1f %7.1f   %4.2f  %4.2f  %7.2f",
-                i + 1,
-                statistics.points,
-                2e3 * s.semi_axes.x(),
-                2e3 * s.semi_axes.y(),
-                2e3 * s.semi_axes.z(),
-                s.epsilon1,
-                s.epsilon2,
-                1e3 * statistics.rms_distance);
-    if (i < file.tapers.size())
-      std::printf("   taper %.3f %.3f", file.tapers[i][0], file.tapers[i][1]);
-    std::printf("\n");
-  }
-  if (result.taper)
-    std::printf("  a taper is %s by the points (margin %.1f, %.0f would do)\n",
-                result.taper->model.isTapered() ? "demanded" : "not demanded",
-                result.taper->margin,
-                TaperedFit::DEMAND);
-  std::printf(
-      "  distortion (paper's unit) %.3f, rms distance %.2f mm, %zu grasp points\n",
-      file.distortion * std::sqrt(1e9),
-      1e3 * file.rms_distance,
-      result.report.grasp_indices.size());
-  std::printf("  time:");
-  for (const auto& [stage, ms] : file.timings_ms)
-    std::printf(" %s %.1f ms", stage.c_str(), ms);
-  std::printf("\n");
 }
 
 } // namespace pcl_sq::app

@@ -3,11 +3,13 @@
 
 #include "pcl_sq/estimation_options.h"
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/multi_superquadric.h"
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +29,10 @@ struct PartReport {
 /** \brief What an estimation did, stage by stage. */
 struct EstimationReport {
   std::string failure; ///< why there is no model, a sentence; empty on success
-  RoiBox region;       ///< box that was divided [m]
+  /** \brief Fall-backs and what to do about them, one sentence each, those of the view
+   * among them. */
+  std::vector<std::string> notes;
+  RoiBox region;                 ///< box that was divided [m]
   std::size_t region_points = 0; ///< finite points in it
   VoxelLayout voxels;            ///< empty without a decomposition
   std::vector<Prism> prisms;     ///< empty without a decomposition
@@ -54,11 +59,32 @@ struct EstimationReport {
  *   std::cout << model.size() << " superquadrics\n";
  * \endcode
  * The camera looks along z with y down, as in every image-based cloud.
+ *
+ * Which points are the object is said in one of these ways:
+ *
+ * | said with | the object is |
+ * |---|---|
+ * | setIndices() | exactly these points, also where they are all of the cloud |
+ * | ViewOptions::mask | exactly the pixels under the mask of an organized cloud |
+ * | setRegion() | looked for in this box: the thing that the box was drawn around |
+ * | setIndices() and setRegion() | looked for among those of the points in the box |
+ * | nothing | looked for in the whole view: the largest thing that stands on a table |
+ *
+ * To look for it takes an image, that is an organized cloud, with a table in it, and
+ * the best mode (Decomposition::PARTS, the default). Elsewhere, in lists of points and
+ * in the paper's chain, the object is all points that are left: those of the indices,
+ * in the box. A whole organized cloud that is the object is said with all its indices.
+ * For a rectangle of the image, RoiEstimator gives the points for setIndices() and the
+ * box for setRegion(). What the view is known to hold besides, the table, the
+ * viewpoint, the camera, is said in EstimationOptions::view.
+ *
  * \tparam PointT point type with x, y, z
  * \ingroup pcl_sq
  */
 template <typename PointT>
 class ObjectSurfaceEstimation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<ObjectSurfaceEstimation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const ObjectSurfaceEstimation<PointT>>;
@@ -67,14 +93,14 @@ public:
   void setOptions(const EstimationOptions& options);
   const EstimationOptions& getOptions() const { return options_; }
 
-  /** \brief Restricts the work to a box [m]; without it all finite points count. */
-  void setRegion(const RoiBox& region) {
-    region_ = region;
-    has_region_ = true;
-  }
-  void unsetRegion() { has_region_ = false; }
-  bool hasRegion() const { return has_region_; }
-  const RoiBox& getRegion() const { return region_; }
+  /** \brief Looks for the object in a box of the cloud's frame [m]; see above. */
+  void setRegion(const RoiBox& region) { region_ = region; }
+  /** \brief Takes the box back. */
+  void unsetRegion() { region_.reset(); }
+  /** \brief Whether a box is set. */
+  bool hasRegion() const { return region_.has_value(); }
+  /** \brief The box set. \pre hasRegion() */
+  const RoiBox& getRegion() const { return *region_; }
 
   /** \brief Number of threads for the fits, 0 for all cores. The result does not depend
    * on it. */
@@ -92,31 +118,19 @@ public:
 protected:
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
+  using pcl::PCLBase<PointT>::use_indices_;
+  using pcl::PCLBase<PointT>::fake_indices_;
   using pcl::PCLBase<PointT>::initCompute;
   using pcl::PCLBase<PointT>::deinitCompute;
 
 private:
-  bool fail(const std::string& sentence);
-  bool cropRegion(pcl::IndicesPtr& object);
-  bool decompose(const pcl::IndicesPtr& object,
-                 std::vector<pcl::PointIndices>& clusters);
-  bool observe(pcl::IndicesPtr& object);
-  bool fitObject(MultiSuperquadric& model);
-  bool fitParts(const pcl::IndicesPtr& object,
-                std::vector<pcl::PointIndices>& clusters,
-                MultiSuperquadric& model);
-  void evaluate(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
-  void findGraspPoints(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
-
   EstimationOptions options_;
-  RoiBox region_;
-  bool has_region_ = false;
+  std::optional<RoiBox> region_;
   unsigned int threads_ = 0;
   EstimationReport report_;
 };
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/object_surface_estimation.hpp"
-#endif

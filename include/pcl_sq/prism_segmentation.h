@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/prism.h"
 
 #include <pcl/pcl_base.h>
+
+#include <string>
+#include <vector>
 
 namespace pcl_sq {
 
@@ -18,6 +22,8 @@ namespace pcl_sq {
  */
 template <typename PointT>
 class PrismSegmentation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<PrismSegmentation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const PrismSegmentation<PointT>>;
@@ -48,9 +54,6 @@ protected:
   using pcl::PCLBase<PointT>::deinitCompute;
 
 private:
-  void distribute(std::vector<pcl::PointIndices>& clusters) const;
-  bool dropSmallest(const std::vector<pcl::PointIndices>& clusters);
-
   VoxelLayout layout_;
   PrismOptions options_;
   bool exclusive_ = false;
@@ -59,6 +62,5 @@ private:
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/prism_segmentation.hpp"
-#endif

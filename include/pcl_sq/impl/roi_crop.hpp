@@ -79,3 +79,5 @@ void RoiCrop<PointT>::applyFilter(pcl::Indices& indices) {
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, RoiCrop)

@@ -120,3 +120,5 @@ bool RoiEstimator<PointT>::findSidesAtMedianDepth(RoiBox& region,
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, RoiEstimator)
