@@ -38,7 +38,7 @@ bool findOnImage(const CloudPoints& points,
       region.cells[i] = candidates[i] && seen.col(Eigen::Index(i)).allFinite();
     const std::vector<int> none;
     const Observation o{seen, width, height, none, moved_view, observed};
-    found = findInRegion(o, region);
+    found = findInRegion(o, region, true);
   }
   found.table = pose.toCloud(found.table);
   return true;
