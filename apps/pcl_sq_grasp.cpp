@@ -23,14 +23,24 @@ struct Input {
   Eigen::Matrix3Xd cloud; ///< the whole scene; 3 x 0 without one
 };
 
+/** \brief Whether the input is a model file; on standard input its first character
+ * tells. */
+bool isModel(const std::string& path) {
+  if (path != "-" && path != "/dev/stdin")
+    return app::extensionOf(path) == ".json";
+  const std::string text = app::readInput(path);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{';
+}
+
 Input loadInput(const std::string& path,
                 const std::string& cloud_path,
                 const app::ModelOptions& model_options) {
   Input input;
-  if (app::extensionOf(path) == ".json") {
+  if (isModel(path)) {
     std::string why;
-    if (!fromJson(app::readFile(path), input.file, &why))
-      throw app::Failure("'" + path + "' is not a model: " + why + ".");
+    if (!loadModel(path, input.file, &why))
+      throw app::Failure(why + ".");
     if (!cloud_path.empty())
       input.cloud = app::columnsOf(app::loadCloud(cloud_path));
     return input;
@@ -50,6 +60,8 @@ int plan(const std::string& input_path,
          app::GraspOptions& options) {
   options.table = model_options.table;
   options.viewpoint = model_options.viewpoint;
+  app::claimInput(input_path);
+  app::claimInput(cloud_path);
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
   const Input input = loadInput(input_path, cloud_path, model_options);
@@ -85,7 +97,8 @@ int main(int argc, char** argv) {
       [&](CLI::App& cli) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
             ->check(CLI::ExistingFile);
-        cli.add_option("input", input_path, "Model (JSON) or point cloud")
+        cli.add_option(
+               "input", input_path, "Model (JSON) or point cloud; -: standard input")
             ->required()
             ->type_name("FILE");
         app::addGraspOutputOptions(cli, options);

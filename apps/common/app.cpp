@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app.h"
 
+#include "process.h"
+
 #include "pcl_sq/config.h"
 
 #include <pcl/console/print.h>
@@ -17,15 +19,15 @@ namespace pcl_sq::app {
 
 namespace {
 bool quiet_requested = false;
-}
 
-int run(int argc,
-        char** argv,
-        const std::string& name,
-        const std::string& description,
-        const std::string& examples,
-        const std::function<void(CLI::App&)>& configure,
-        const std::function<int()>& body) {
+/** \brief run() without the care for signals and standard output. */
+int runGuarded(int argc,
+               char** argv,
+               const std::string& name,
+               const std::string& description,
+               const std::string& examples,
+               const std::function<void(CLI::App&)>& configure,
+               const std::function<int()>& body) {
   const auto fail = [&name](const char* sentence, ExitCode code) {
     std::cerr << name << ": " << sentence << '\n';
     return int(code);
@@ -60,6 +62,20 @@ int run(int argc,
   } catch (const std::exception& error) {
     return fail(error.what(), FAILED);
   }
+}
+
+} // namespace
+
+int run(int argc,
+        char** argv,
+        const std::string& name,
+        const std::string& description,
+        const std::string& examples,
+        const std::function<void(CLI::App&)>& configure,
+        const std::function<int()>& body) {
+  beginProcess();
+  return endProcess(
+      name, runGuarded(argc, argv, name, description, examples, configure, body));
 }
 
 bool quiet() {

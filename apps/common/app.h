@@ -24,7 +24,8 @@ struct UsageError : std::runtime_error {
 };
 
 /** \brief The frame of a main(): adds --version and -q, parses, runs, and turns every
- * error into one sentence on stderr and an exit code.
+ * error into one sentence on stderr and an exit code; at the end it tells which files
+ * were written.
  * \param[in] configure adds the program's own options
  * \param[in] body the work; returns an exit code */
 int run(int argc,

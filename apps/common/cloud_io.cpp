@@ -33,7 +33,7 @@ bool hasField(const pcl::PCLPointCloud2& blob, const std::string& name) {
 
 /** \brief Text with three numbers in front of each line, or behind a leading "v". */
 Cloud::Ptr parseText(const std::string& path, bool wavefront) {
-  std::istringstream lines(readFile(path));
+  std::istringstream lines(readInput(path));
   auto cloud = pcl::make_shared<Cloud>();
   std::string line;
   std::size_t number = 0;

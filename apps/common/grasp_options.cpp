@@ -28,7 +28,7 @@ double numberOf(const CLI::ConfigItem& item, const std::string& path) {
 }
 
 Gripper gripperFromToml(const std::string& path) {
-  std::istringstream stream(readFile(path));
+  std::istringstream stream(readInput(path));
   Gripper gripper;
   gripper.name = path;
   const std::map<std::string, double Gripper::*> sizes = {
@@ -99,7 +99,8 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
 }
 
 void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
-  cli.add_option("-o,--output", options.output, "Grasps as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Grasps as JSON; -: standard output")
+      ->type_name("FILE");
   cli.add_option("--count", options.planner.count, "Most grasps to give")
       ->capture_default_str();
   cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
@@ -119,9 +120,10 @@ void checkGraspOptions(const GraspOptions& options) {
   if (!options.table.empty() &&
       !(Eigen::Map<const Eigen::Vector3d>(options.table.data()).norm() > 1e-9))
     throw UsageError("--table needs a normal that is not zero");
-  for (const std::string& path : {options.output, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  if (!options.graspit.empty())
+    claimFolder(options.graspit);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 GraspScene makeScene(const GraspOptions& options, const ModelFile& file) {

@@ -136,7 +136,8 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
 void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.set_config("--config", "", "TOML file with options; the command line wins")
       ->check(CLI::ExistingFile);
-  cli.add_option("-o,--output", options.output, "Model as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Model as JSON; -: standard output")
+      ->type_name("FILE");
   addViewOptions(cli, options);
   addFitOptions(cli, options.estimation);
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
@@ -152,7 +153,9 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
                options.remove_plane,
                "Keep the largest cluster above the largest plane");
   addPrismOptions(cli, options.estimation);
-  cli.add_option("--grasp-points", options.grasp_points, "Points on the surface as PCD")
+  cli.add_option("--grasp-points",
+                 options.grasp_points,
+                 "Points on the surface as PCD; -: standard output")
       ->type_name("FILE");
   cli.add_option("--grasp-threshold",
                  options.estimation.grasp_threshold,
@@ -162,9 +165,12 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  cli.add_option("--mesh", options.mesh, "Surface as .ply, .obj, .stl or .vtp")
+  cli.add_option("--mesh",
+                 options.mesh,
+                 "Surface as .ply, .obj, .stl or .vtp; -: PLY on standard output")
       ->type_name("FILE");
-  cli.add_option("--snapshot", options.snapshot, "Picture as PNG")->type_name("FILE");
+  cli.add_option("--snapshot", options.snapshot, "Picture as PNG; -: standard output")
+      ->type_name("FILE");
 #endif
 }
 
@@ -178,10 +184,10 @@ void checkModelOptions(const ModelOptions& options) {
     if (!(options.box[k] < options.box[k + 3]))
       throw UsageError("--box needs each minimum below its maximum");
   checkTaper(options);
-  for (const std::string& path :
-       {options.output, options.mesh, options.grasp_points, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});
+  claimOutput("--grasp-points", options.grasp_points);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 } // namespace pcl_sq::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app.h"
+#include "cloud_bytes.h"
 #include "files.h"
 #include "model_options.h"
 
@@ -10,8 +11,6 @@
 #include "pcl_sq/visualization/mesh_writer.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 #endif
-
-#include <pcl/io/pcd_io.h>
 
 #include <cstdio>
 
@@ -31,10 +30,7 @@ void writeGraspPoints(const std::string& path,
   if (points.empty())
     throw Failure("no point lies on the model's surface; '" + path +
                   "' is not written.");
-  writeAtomically(path, [&](const std::string& temporary) {
-    if (pcl::PCDWriter().writeBinary(temporary, points) != 0)
-      throw Failure("cannot write '" + path + "'.");
-  });
+  writeOutput(path, pcdBytes(points));
 }
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
@@ -49,6 +45,7 @@ void writeSnapshot(const std::string& path,
   addCloud(renderer, input);
   addModel(renderer, result.file);
   renderer.save(path);
+  noteWritten(path);
 }
 #endif
 
@@ -58,13 +55,15 @@ void writeOutputs(const LoadedCloud& input,
                   const ModelResult& result,
                   const ModelOptions& options) {
   if (!options.output.empty())
-    writeTextFile(options.output, toJson(result.file) + "\n");
+    writeOutput(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
     writeGraspPoints(
         options.grasp_points, input, result.file.model, result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  if (!options.mesh.empty())
+  if (!options.mesh.empty()) {
     writeMesh(options.mesh, meshesOf(result.file));
+    noteWritten(options.mesh);
+  }
   if (!options.snapshot.empty())
     writeSnapshot(options.snapshot, input, result);
 #endif

@@ -77,7 +77,7 @@ std::string toJson(const SceneTruth& t) {
 
 SceneTruth readTruth(const std::string& path) {
   try {
-    const Json json = Json::parse(readFile(path));
+    const Json json = Json::parse(readInput(path));
     if (json.at("schema") != "pcl_sq/truth" || json.at("version") != 1)
       throw Failure("'" + path + "' is not a truth file of version 1.");
     SceneTruth t;

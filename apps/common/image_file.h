@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include <string>
+
+namespace pcl_sq::app {
+
+/** \brief claimOutput() for a picture: PNG into pipes and devices, otherwise as the
+ * ending says. \throw UsageError too, if no picture has that ending */
+void claimImage(const std::string& option, const std::string& path);
+
+/** \brief Writes a picture. \throw Failure */
+void writeImage(const std::string& path, const cv::Mat& image);
+
+} // namespace pcl_sq::app
