@@ -2,6 +2,8 @@
 // Calibration of a stereo camera from pictures of a chessboard.
 #include "app.h"
 #include "files.h"
+#include "image_file.h"
+#include "value_checks.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -12,7 +14,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 
 using namespace pcl_sq::app;
 
@@ -50,7 +51,7 @@ void addOptions(CLI::App& cli, Options& o) {
       ->capture_default_str();
   cli.add_option("--square", o.square, "Side of one square [m]")
       ->required()
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(100.0))
       ->type_name("M");
   cli.add_flag("--rational", o.rational, "Eight lens coefficients, for wide angles");
   cli.add_option("-o,--output",
@@ -101,11 +102,7 @@ bool findCorners(const std::string& path,
                  const cv::Size& board,
                  cv::Size& size,
                  std::vector<cv::Point2f>& corners) {
-  // OpenCV would add a warning of its own
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  if (image.empty())
-    throw Failure("cannot read the image '" + path + "'.");
+  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
   if (size.empty())
     size = image.size();
   if (size != image.size())
@@ -138,9 +135,9 @@ Views findBoards(const Options& o) {
       views.left.push_back(a);
       views.right.push_back(b);
       views.world.push_back(board);
-    } else if (!quiet())
-      std::cerr << "no " << o.board << " chessboard in " << left << " and " << right
-                << "; the pair is left out\n";
+    } else
+      note("there is no " + o.board + " chessboard in both '" + left + "' and '" +
+           right + "'; the pair is left out");
   }
   if (views.world.size() < 4)
     throw Failure("the chessboard was found in " + std::to_string(views.world.size()) +
@@ -222,6 +219,8 @@ int work(const Options& o) {
   claimOutput("--output", o.output, {".yml", ".yaml", ".xml"});
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const Views views = findBoards(o);
+  StageLine line;
+  line.show("calibrating");
   const Calibration c = calibrate(views, o.rational);
   if (c.T.at<double>(0) > 0.0)
     throw Failure("the second camera is left of the first; exchange the left and right "

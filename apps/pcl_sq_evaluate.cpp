@@ -8,6 +8,7 @@
 #include "pcl_sq/model_io.h"
 #include "pose_file.h"
 #include "truth.h"
+#include "value_checks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -32,32 +33,28 @@ void addOptions(CLI::App& cli, Options& o) {
   cli.add_option("model", o.model, "Model to judge (JSON); -: standard input")
       ->required()
       ->type_name("FILE");
-  auto* truth = cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")
-                    ->type_name("FILE");
-  auto* mesh =
-      cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
-          ->type_name("FILE");
-  truth->excludes(mesh);
+  cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")->type_name("FILE");
+  cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
+      ->type_name("FILE");
   cli.add_option("--pose",
                  o.pose,
                  "Mesh to model's frame: 16 numbers (rows, commas between), a file of "
                  "them, or FILE.yml:NAME of an OpenCV file")
-      ->needs(mesh);
+      ->type_name("POSE");
   cli.add_option("--symmetry", o.symmetry, "Of the mesh; revolution is about its z")
-      ->check(CLI::IsMember({"none", "box", "revolution", "sphere"}))
-      ->needs(mesh)
+      ->check(oneOf({"none", "box", "revolution", "sphere"}))
       ->capture_default_str();
   cli.add_option("--cloud", o.cloud, "Measured points of the object")
       ->type_name("FILE");
   cli.add_option("--samples", o.samples, "Points for each of volume and surfaces")
-      ->check(CLI::Range(1000, 10000000))
+      ->check(wholeNumber(1000, 10000000))
       ->capture_default_str();
   cli.add_option("--format", o.format, "What is printed")
-      ->check(CLI::IsMember({"json", "table"}))
+      ->check(oneOf({"json", "table"}))
       ->capture_default_str();
   cli.add_option("-o,--output", o.output, "Also write the JSON to a file")
       ->type_name("FILE");
-  cli.add_option("--threads", o.threads, "0 = all cores")->check(CLI::Range(0, 1024));
+  cli.add_option("--threads", o.threads, "0 = all cores")->check(wholeNumber(0, 1024));
 }
 
 ReferenceShape loadShape(const Options& o) {
@@ -162,6 +159,8 @@ int work(const Options& o) {
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const TaperedUnion model = file.tapered();
+  StageLine line;
+  line.show("comparing");
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},
@@ -179,6 +178,7 @@ int work(const Options& o) {
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }
+  line.clear();
   const std::string text = json.dump(2) + "\n";
   if (!o.output.empty())
     writeOutput(o.output, text);

@@ -6,6 +6,9 @@
 #include "model_options.h"
 #include "ordered_lines.h"
 #include "process.h"
+#include "summary.h"
+#include "text.h"
+#include "value_checks.h"
 
 #include "pcl_sq/stage_timer.h"
 
@@ -43,7 +46,7 @@ app::ModelResult fit(const std::string& path,
                      const app::ModelOptions& options,
                      app::LoadedCloud& input) {
   std::vector<std::pair<std::string, double>> timings;
-  StageTimer timer(timings);
+  StageTimer timer(timings, options.estimation.progress);
   input = timer.run("load", [&] { return app::loadCloud(path); });
   return app::makeModel(input, path, options, timings.back().second);
 }
@@ -54,22 +57,30 @@ GraspPlan planOn(const app::LoadedCloud& input,
                  double& milliseconds) {
   app::GraspOptions options = arguments.grasp_options;
   options.planner.count = std::size_t(arguments.grasps);
-  options.viewpoint = arguments.options.viewpoint;
-  GraspScene scene = app::makeScene(options, file);
-  scene.has_viewpoint = true; // the origin unless told otherwise
+  options.frame = arguments.options.frame;
+  GraspScene scene = app::makeScene(options, file, &input);
   scene.cloud = app::columnsOf(input);
   return app::planGrasps(file.model, scene, options, milliseconds);
 }
 
 int fitOne(const Arguments& arguments) {
   app::LoadedCloud input;
-  app::ModelResult result = fit(arguments.clouds[0], arguments.options, input);
+  app::StageLine line;
+  app::ModelOptions options = arguments.options;
+  options.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(app::wordsFor(stage), share);
+  };
+  app::ModelResult result = fit(arguments.clouds[0], options, input);
+  line.clear();
+  app::printNotes(result);
   GraspPlan plan;
   double plan_ms = 0.0;
   if (arguments.grasps > 0) {
+    line.show("planning grasps");
     plan = planOn(input, arguments, result.file, plan_ms);
     app::addGrasps(plan, arguments.grasp_options, result.file);
   }
+  line.clear();
   app::writeOutputs(input, result, arguments.options);
   if (!app::quiet())
     app::printSummary(result);
@@ -96,13 +107,11 @@ bool fitLine(const std::string& path,
     app::LoadedCloud input;
     line = toJson(fit(path, options, input).file, -1);
     return true;
-  } catch (const std::bad_alloc&) {
-    sentence = "not enough memory for this input; crop or thin it first.";
   } catch (const std::exception& error) {
-    sentence = error.what();
+    sentence = app::sentenceOf(error);
   }
   line = errorLine(path, sentence);
-  std::cerr << "pcl_sq_fit: " + path + ": " + sentence + "\n";
+  std::cerr << "pcl_sq_fit: " + app::printable(path + ": " + sentence) + "\n";
   return false;
 }
 
@@ -193,7 +202,7 @@ int main(int argc, char** argv) {
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")
-            ->check(CLI::Range(0, 10000))
+            ->check(app::wholeNumber(0, 10000))
             ->capture_default_str();
         app::addGripperOptions(cli, arguments.grasp_options);
       },

@@ -4,6 +4,8 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "summary.h"
+#include "value_checks.h"
 
 using namespace pcl_sq;
 
@@ -20,7 +22,7 @@ const char* const EXAMPLES =
 
 struct Input {
   ModelFile file;
-  Eigen::Matrix3Xd cloud; ///< the whole scene; 3 x 0 without one
+  std::optional<app::LoadedCloud> cloud; ///< the whole scene
 };
 
 /** \brief Whether the input is a model file; on standard input its first character
@@ -28,7 +30,7 @@ struct Input {
 bool isModel(const std::string& path) {
   if (path != "-" && path != "/dev/stdin")
     return app::extensionOf(path) == ".json";
-  const std::string text = app::readInput(path);
+  const std::string text = app::readFile(path);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '{';
 }
@@ -42,15 +44,19 @@ Input loadInput(const std::string& path,
     if (!loadModel(path, input.file, &why))
       throw app::Failure(why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::columnsOf(app::loadCloud(cloud_path));
+      input.cloud = app::loadCloud(cloud_path);
     return input;
   }
-  if (!cloud_path.empty())
-    throw app::UsageError(
-        "--cloud goes with a model file; the input is a cloud itself");
-  const app::LoadedCloud cloud = app::loadCloud(path);
-  input.file = app::makeModel(cloud, path, model_options, 0.0).file;
-  input.cloud = app::columnsOf(cloud);
+  app::StageLine line;
+  line.show(app::wordsFor("load"));
+  input.cloud = app::loadCloud(path);
+  app::ModelOptions options = model_options;
+  options.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(app::wordsFor(stage), share);
+  };
+  const app::ModelResult result = app::makeModel(*input.cloud, path, options, 0.0);
+  app::printNotes(result);
+  input.file = result.file;
   return input;
 }
 
@@ -58,20 +64,22 @@ int plan(const std::string& input_path,
          const std::string& cloud_path,
          const app::ModelOptions& model_options,
          app::GraspOptions& options) {
-  options.table = model_options.table;
-  options.viewpoint = model_options.viewpoint;
+  options.frame = model_options.frame;
   app::claimInput(input_path);
   app::claimInput(cloud_path);
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
   const Input input = loadInput(input_path, cloud_path, model_options);
-  GraspScene scene = app::makeScene(options, input.file);
-  scene.cloud = input.cloud;
-  if (scene.cloud.cols() > 0)
-    scene.has_viewpoint = true; // unless told otherwise a cloud's frame is its camera's
+  GraspScene scene =
+      app::makeScene(options, input.file, input.cloud ? &*input.cloud : nullptr);
+  if (input.cloud)
+    scene.cloud = app::columnsOf(*input.cloud);
   double milliseconds = 0.0;
+  app::StageLine line;
+  line.show("planning grasps");
   const GraspPlan plan =
       app::planGrasps(input.file.model, scene, options, milliseconds);
+  line.clear();
   if (!plan.ok())
     throw app::Failure(plan.failure);
   const std::string json = app::graspsToJson(
@@ -96,7 +104,8 @@ int main(int argc, char** argv) {
       EXAMPLES,
       [&](CLI::App& cli) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
-            ->check(CLI::ExistingFile);
+            ->type_name("FILE")
+            ->check(app::existingFile());
         cli.add_option(
                "input", input_path, "Model (JSON) or point cloud; -: standard input")
             ->required()
@@ -112,12 +121,14 @@ int main(int argc, char** argv) {
                "--roi", model_options.roi, "Object in the image of a cloud [px]")
             ->expected(4)
             ->delimiter(',')
-            ->type_name("X,Y,W,H");
-        cli.add_flag("--remove-plane",
-                     model_options.remove_plane,
-                     "The object of a cloud stands on its largest plane");
+            ->type_name("X,Y,W,H")
+            ->check(app::wholeNumber(-app::MAX_PIXELS, app::MAX_PIXELS));
+        cli.add_flag(
+            "--remove-plane",
+            model_options.remove_plane,
+            "The object is the largest thing that stands on a plane of a cloud");
         cli.add_option("--threads", model_options.threads, "For the fit, 0: all cores")
-            ->check(CLI::Range(0, 1024))
+            ->check(app::wholeNumber(0, 1024))
             ->capture_default_str();
       },
       [&] { return plan(input_path, cloud_path, model_options, options); });

@@ -5,12 +5,14 @@
 #include "image_file.h"
 #include "mesh_reader.h"
 #include "truth.h"
+#include "value_checks.h"
 
 #include <opencv2/core.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 
 using namespace pcl_sq;
 using namespace pcl_sq::app;
@@ -33,48 +35,52 @@ struct Options {
 };
 
 void addOptions(CLI::App& cli, Options& o) {
-  auto* scene = cli.add_option("scene", o.scene, "Object on the table")
-                    ->check(CLI::IsMember(objectNames()));
-  auto* mesh = cli.add_option("--mesh", o.mesh_path, "Any object: OBJ, STL or PLY");
-  scene->excludes(mesh);
+  cli.add_option("scene", o.scene, "Object on the table")->check(oneOf(objectNames()));
+  cli.add_option("--mesh", o.mesh_path, "Any object: OBJ, STL or PLY")
+      ->type_name("FILE");
   cli.add_option("--mesh-up", o.up, "Axis of the mesh that points upwards")
-      ->check(CLI::IsMember({"x", "y", "z"}))
-      ->needs(mesh);
+      ->check(oneOf({"x", "y", "z"}))
+      ->capture_default_str();
   cli.add_option("--mesh-unit", o.mesh_unit, "Length of the mesh's unit [m]")
-      ->check(CLI::Range(1e-6, 1e6))
-      ->needs(mesh);
+      ->check(number(1e-6, 1e6))
+      ->capture_default_str();
   cli.add_option("-o,--out", o.folder, "Folder for the results; made if absent")
       ->required()
       ->type_name("DIR");
   cli.add_option(
          "--rig", o.rig, "bumblebee: 1024x768, f 1310 px; vga: 640x480, f 811.6")
-      ->check(CLI::IsMember({"bumblebee", "vga", "small"}))
+      ->check(oneOf({"bumblebee", "vga", "small"}))
       ->capture_default_str();
   cli.add_option("--distance", o.distance, "Depth of the object's middle [m]")
-      ->check(CLI::Range(0.3, 10.0));
+      ->check(number(0.3, 10.0));
   cli.add_option("--offset", o.offset, "Its place right and down of the axis [m]")
       ->expected(2)
-      ->delimiter(',');
-  cli.add_option("--yaw", o.yaw, "Turn about the vertical [deg]");
+      ->delimiter(',')
+      ->type_name("X,Y")
+      ->check(number(-10.0, 10.0));
+  cli.add_option("--yaw", o.yaw, "Turn about the vertical [deg]")
+      ->check(number(-360.0, 360.0));
   cli.add_option("--pitch", o.pitch, "Downward tilt of the camera [deg]")
-      ->check(CLI::Range(0.0, 80.0))
+      ->check(number(0.0, 80.0))
       ->capture_default_str();
   cli.add_option("--contrast", o.contrast, "Strength of the textures")
-      ->check(CLI::Range(0.0, 2.0))
+      ->check(number(0.0, 2.0))
       ->capture_default_str();
   cli.add_option("--noise", o.noise, "Sensor noise, sigma [grey levels]")
-      ->check(CLI::Range(0.0, 50.0))
+      ->check(number(0.0, 50.0))
       ->capture_default_str();
   cli.add_option("--supersampling", o.supersampling, "Rays per pixel and direction")
-      ->check(CLI::Range(1, 8))
+      ->check(wholeNumber(1, 8))
       ->capture_default_str();
-  cli.add_option("--seed", o.seed, "Same seed, same bytes")->capture_default_str();
+  cli.add_option("--seed", o.seed, "Same seed, same bytes")
+      ->check(wholeNumber(0, std::numeric_limits<long long>::max()))
+      ->capture_default_str();
   cli.add_flag(
       "--distortion",
       o.distortion,
       "Also raw_left.png, raw_right.png, calib_raw.yml: the same scene through "
       "distorted, slightly turned cameras");
-  cli.add_option("--threads", o.threads, "0 = all cores")->check(CLI::Range(0, 1024));
+  cli.add_option("--threads", o.threads, "0 = all cores")->check(wholeNumber(0, 1024));
 }
 
 cv::Mat matrix(const Eigen::MatrixXd& m) {

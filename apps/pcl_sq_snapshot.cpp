@@ -3,6 +3,8 @@
 #include "app.h"
 #include "cloud_picture.h"
 #include "files.h"
+#include "frame_options.h"
+#include "value_checks.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
@@ -26,8 +28,9 @@ const char* const EXAMPLES =
     "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
 
 struct Arguments {
-  std::string model, cloud, output, size = "1280x960", view = "iso", up;
+  std::string model, cloud, output, size = "1280x960", view = "iso";
   int turntable = 0;
+  app::FrameOptions frame;
   SnapshotOptions options;
 };
 
@@ -36,21 +39,6 @@ void parseSize(const std::string& text, SnapshotOptions& options) {
   if (std::sscanf(text.c_str(), "%4dx%4d%c", &options.width, &options.height, &rest) !=
       2)
     throw app::UsageError("--size " + text + " is not of the form 1280x960.");
-}
-
-/** \brief An axis such as "-y", or three numbers such as "0,-0.8,-0.6". */
-Eigen::Vector3d parseUp(const std::string& text) {
-  const bool negative = text.size() == 2 && text[0] == '-';
-  if (text.size() == (negative ? 2u : 1u) && text.back() >= 'x' && text.back() <= 'z') {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(text.back() - 'x');
-    return negative ? Eigen::Vector3d(-axis) : axis;
-  }
-  Eigen::Vector3d up;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &up.x(), &up.y(), &up.z(), &rest) != 3)
-    throw app::UsageError("--up " + text +
-                          " is neither an axis (x, -x, y, ...) nor three numbers.");
-  return up;
 }
 
 void configure(CLI::App& cli, Arguments& a) {
@@ -65,31 +53,28 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("WxH")
       ->capture_default_str();
   cli.add_option("--view", a.view, "Where from; camera: the sensor's own image")
-      ->check(CLI::IsMember({"front", "side", "top", "iso", "camera"}))
+      ->check(app::oneOf({"front", "side", "top", "iso", "camera"}))
       ->capture_default_str();
-  cli.add_option("--up",
-                 a.up,
-                 "Upward direction; if not given, the table's normal that the model "
-                 "file tells, else -y: cameras have y down")
-      ->type_name("x|-x|y|-y|z|-z|X,Y,Z");
+  app::addFrameOptions(cli, a.frame);
   cli.add_option("--turntable", a.turntable, "N pictures all round: out_000.png ...")
-      ->check(CLI::Range(1, 1000))
+      ->check(app::wholeNumber(1, 1000))
       ->type_name("N");
   cli.add_option("--opacity", a.options.opacity, "Of the superquadrics")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("0..1")
+      ->check(app::number(0.0, 1.0))
+      ->type_name("N")
       ->capture_default_str();
   cli.add_option("--context",
                  a.options.context,
                  "How far around the object the cloud is shown, in object sizes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(app::number(0.0, 1e6))
       ->type_name("SIZES")
       ->capture_default_str();
   cli.add_option("--point-size", a.options.point_size, "[px]; 0: from the density")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(app::number(0.0, 100.0))
       ->type_name("PX")
       ->capture_default_str();
-  cli.add_option("--title", a.options.title, "Large text at the top");
+  cli.add_option("--title", a.options.title, "Large text at the top")
+      ->type_name("TEXT");
   cli.add_option("--caption", a.options.caption, "Small text under the title");
 }
 
@@ -98,8 +83,11 @@ void check(Arguments& a) {
   if (a.model.empty() && a.cloud.empty())
     throw app::UsageError("there is nothing to show; give a model, --cloud or both.");
   parseSize(a.size, a.options);
-  if (!a.up.empty())
-    a.options.up = parseUp(a.up);
+  if (const auto table = a.frame.tableOf())
+    a.options.up = table->normal;
+  if (const auto up = a.frame.upOf())
+    a.options.up = *up;
+  a.options.sensor = a.frame.viewpointOf();
   std::string why;
   if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
     throw app::UsageError(why + ".");
@@ -123,6 +111,12 @@ std::optional<Eigen::Vector3d> reported(const ModelFile& file,
   return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
+app::LoadedCloud readCloud(const std::string& path) {
+  app::StageLine line;
+  line.show("reading");
+  return app::loadCloud(path);
+}
+
 int takePictures(const Arguments& a) {
   SnapshotRenderer renderer(a.options);
   if (!a.model.empty()) {
@@ -132,13 +126,19 @@ int takePictures(const Arguments& a) {
       throw app::Failure(why + ".");
     app::addModel(renderer, file);
     SnapshotOptions options = a.options;
-    options.sensor = reported(file, "sensor");
-    if (const auto up = reported(file, "up"); up && up->norm() > 1e-6 && a.up.empty())
-      options.up = *up;
+    if (!options.sensor)
+      options.sensor = reported(file, "sensor");
+    if (a.frame.up.empty() && a.frame.table.empty()) {
+      if (const auto up = reported(file, "up"); up && up->norm() > 1e-6)
+        options.up = *up;
+      else if (file.table)
+        options.up =
+            Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(file.table->data()));
+    }
     renderer.setOptions(options);
   }
   if (!a.cloud.empty())
-    app::addCloud(renderer, app::loadCloud(a.cloud));
+    app::addCloud(renderer, readCloud(a.cloud));
   if (a.turntable == 0) {
     renderer.save(a.output);
     app::noteWritten(a.output);

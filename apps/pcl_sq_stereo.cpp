@@ -6,9 +6,9 @@
 #include "image_file.h"
 #include "model_options.h"
 #include "panel.h"
-#include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "stereo_front.h"
+#include "summary.h"
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -125,7 +125,10 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
         {"cx", front.stereo.intrinsics.cx},
         {"cy", front.stereo.intrinsics.cy},
         {"baseline", front.stereo.intrinsics.baseline}}}};
-  file.extra_json = extra.dump();
+  if (!front.notes.empty())
+    extra["stereo"]["notes"] = front.notes;
+  file.extra_json =
+      extra.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 PanelInput panelInput(const FrontResult& front,
@@ -211,6 +214,9 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
     writeCloud(outputs.cloud, *front.stereo.cloud);
   if (!outputs.mask.empty() && !front.segment.mask.empty())
     writeImage(outputs.mask, front.segment.mask);
+  else if (!outputs.mask.empty())
+    note("there is no outline of the object, so '" + outputs.mask +
+         "' is not written; give another hint");
   if (!outputs.histogram.empty())
     writeImage(outputs.histogram,
                plotDepthHistogram(front.histogram, k.fx * k.baseline));
@@ -236,7 +242,15 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   if (!front_options.depth.empty() && !outputs.disparity.empty())
     throw UsageError("a depth image has no disparity to write; leave out --disparity.");
   checkOutputs(outputs);
+  StageLine line;
+  model.estimation.progress = [&line](const std::string& stage, double share) {
+    line.show(wordsFor(stage), share);
+  };
+  front_options.progress = model.estimation.progress;
   const FrontResult front = runFront(front_options, model.roi);
+  line.clear();
+  for (const std::string& sentence : front.notes)
+    note(sentence);
   writeFront(front, outputs);
   handOver(front, best, model);
   const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
@@ -246,6 +260,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   const std::string input =
       front_options.left.empty() ? front_options.depth : front_options.left;
   ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
+  line.clear();
+  printNotes(result);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);
   if (!outputs.panel.empty())
@@ -272,6 +288,8 @@ int main(int argc, char** argv) {
       "--segment grabcut\n"
       "  pcl_sq_stereo left.png right.png --calib calib.yml --matcher sgbm "
       "--click 512,380 --cloud scene.pcd\n"
+      "  pcl_sq_stereo left.png right.png --calib left.yaml right.yaml -o model.json\n"
+      "  pcl_sq_stereo left.png right.png --intrinsics 500,500,320,240 --baseline .12\n"
       "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
       [&](CLI::App& cli) {
         addFrontOptions(cli, front);

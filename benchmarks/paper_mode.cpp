@@ -20,7 +20,7 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr bottleCloud(std::size_t points) {
 
 void estimate(benchmark::State& state, Decomposition decomposition) {
   const auto cloud = bottleCloud(static_cast<std::size_t>(state.range(0)));
-  EstimationOptions options;
+  EstimationOptions options = EstimationOptions::paper();
   options.decomposition = decomposition;
   ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
   estimation.setInputCloud(cloud);

@@ -1,47 +1,61 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # pcl_sq_component(NAME SOURCES ... [PUBLIC libs...] [PRIVATE libs...]
-#   [FIND args...] [PKGCONFIG modules...] [DEBIAN packages...] [RECOMMENDS packages...])
-# One shared library pcl_sq_NAME, alias pcl_sq::NAME, with an export set of its own. Its
-# objects are a target too, pcl_sq_NAME_objects: unit tests link them and so see what the
-# library hides.
+#   [FIND args...] [PRIVATE_FIND args...] [STATIC_LIBS flags...] [PKGCONFIG modules...]
+#   [DEBIAN packages...] [RECOMMENDS packages...])
+# One library libpcl_sq_NAME, target pcl_sq::NAME, with an export set of its own (its
+# target proper is pcl_sq_NAME_library: pcl_sq_stereo is a program). Its objects are a
+# target too, pcl_sq_NAME_objects: unit tests link them and so see what the library hides.
 # FIND, PKGCONFIG and DEBIAN name what a user of the component's headers needs: one quoted
-# argument list of find_dependency() each, modules of pkg-config, packages of Debian. RECOMMENDS: Debian packages that the library itself uses
-# where they are installed.
+# argument list of find_dependency() each, modules of pkg-config, packages of Debian.
+# PRIVATE_FIND, STATIC_LIBS: what the library itself links, as a user of a static one finds
+# it by find_dependency() and by pkg-config.
+# RECOMMENDS: Debian packages that the library itself uses where they are installed.
 function(pcl_sq_component name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;FIND;PKGCONFIG;DEBIAN;RECOMMENDS"
+  cmake_parse_arguments(ARG "" ""
+    "SOURCES;PUBLIC;PRIVATE;FIND;PRIVATE_FIND;STATIC_LIBS;PKGCONFIG;DEBIAN;RECOMMENDS"
     ${ARGN})
-  set(target pcl_sq_${name})
-  add_library(${target}_objects OBJECT ${ARG_SOURCES})
-  set_target_properties(${target}_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_definitions(${target}_objects PRIVATE PCL_SQ_BUILDING)
-  target_include_directories(${target}_objects PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${target}_objects PUBLIC ${ARG_PUBLIC} ${ARG_PRIVATE})
-  pcl_sq_warnings(${target}_objects)
+  set(target pcl_sq_${name}_library)
+  set(objects pcl_sq_${name}_objects)
+  add_library(${objects} OBJECT ${ARG_SOURCES})
+  set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_definitions(${objects} PRIVATE PCL_SQ_BUILDING)
+  target_include_directories(${objects} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${objects} PUBLIC ${ARG_PUBLIC} ${ARG_PRIVATE})
+  pcl_sq_warnings(${objects})
 
-  add_library(${target} SHARED $<TARGET_OBJECTS:${target}_objects>)
+  add_library(${target} $<TARGET_OBJECTS:${objects}>)
   add_library(pcl_sq::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    OUTPUT_NAME pcl_sq_${name} EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} # the ABI's promise
     INSTALL_RPATH "$ORIGIN") # a component finds core beside it, whatever the prefix
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  foreach(library ${target} ${target}_objects)
+  foreach(library ${target} ${objects})
     target_compile_features(${library} PUBLIC cxx_std_17)
     target_include_directories(${library} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
       $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   endforeach()
-  install(TARGETS ${target} EXPORT pcl_sq_${name}_targets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      COMPONENT ${name} NAMELINK_COMPONENT ${name}_dev
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})
-  install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}_dev
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_sq)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    list(APPEND ARG_FIND ${ARG_PRIVATE_FIND})
+  else()
+    set(ARG_STATIC_LIBS "")
+  endif()
+  if(PCL_SQ_INSTALL)
+    install(TARGETS ${target} EXPORT pcl_sq_${name}_targets
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        COMPONENT ${name} NAMELINK_COMPONENT ${name}_dev
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}_dev
+      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})
+    install(EXPORT pcl_sq_${name}_targets NAMESPACE pcl_sq:: COMPONENT ${name}_dev
+      DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_sq)
+  endif()
 
   # read by PclSqPackage.cmake
   set_property(GLOBAL APPEND PROPERTY PCL_SQ_COMPONENTS ${name})
-  set_property(GLOBAL PROPERTY PCL_SQ_${name}_FIND "${ARG_FIND}")
-  set_property(GLOBAL PROPERTY PCL_SQ_${name}_PKGCONFIG "${ARG_PKGCONFIG}")
-  set_property(GLOBAL PROPERTY PCL_SQ_${name}_DEBIAN "${ARG_DEBIAN}")
-  set_property(GLOBAL PROPERTY PCL_SQ_${name}_RECOMMENDS "${ARG_RECOMMENDS}")
+  foreach(property FIND STATIC_LIBS PKGCONFIG DEBIAN RECOMMENDS)
+    set_property(GLOBAL PROPERTY PCL_SQ_${name}_${property} "${ARG_${property}}")
+  endforeach()
 endfunction()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What a user's build needs to find the module: headers, package config and pkg-config
-# files of each component that was built, and Debian packages of them (cpack -G DEB).
+# files of each component that was built; documentation; Debian packages (cpack -G DEB).
 include(CMakePackageConfigHelpers)
 
 get_property(components GLOBAL PROPERTY PCL_SQ_COMPONENTS)
@@ -50,6 +50,8 @@ foreach(name IN LISTS components)
     list(PREPEND PC_REQUIRES "pcl_sq_core = ${PROJECT_VERSION}")
   endif()
   list(JOIN PC_REQUIRES ", " PC_REQUIRES)
+  get_property(PC_LIBS_PRIVATE GLOBAL PROPERTY PCL_SQ_${name}_STATIC_LIBS)
+  list(JOIN PC_LIBS_PRIVATE " " PC_LIBS_PRIVATE)
   configure_file("${CMAKE_CURRENT_LIST_DIR}/pcl_sq.pc.in"
     "${generated}/pcl_sq_${name}.pc" @ONLY)
 
@@ -59,4 +61,7 @@ foreach(name IN LISTS components)
     DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${name}_dev)
 endforeach()
 
-include(PclSqDebian)
+include(PclSqDocs)
+if(top_level)
+  include(PclSqDebian)
+endif()

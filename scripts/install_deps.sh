@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what building, testing and running pcl_sq needs on Debian 12. Says nothing and
-# takes no time when everything is there.
+# Installs what building, testing and running pcl_sq needs on Debian 12, and the packages
+# named as arguments. Says nothing and takes no time when everything is there.
 set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build ccache pkg-config git file
   libeigen3-dev libpcl-dev libopencv-dev libopencv-contrib-dev libvtk9-dev
-  nlohmann-json3-dev libcli11-dev libqhull-dev
+  nlohmann-json3-dev libcli11-dev libqhull-dev libyaml-cpp-dev
   libgtest-dev libbenchmark-dev libceres-dev
   libx11-dev libgl-dev xvfb libgl1-mesa-dri
-  clang-format-14 doxygen
+  clang-format-14 doxygen help2man python3
+  "$@"
 )
 
 # the names of the packages that are not installed

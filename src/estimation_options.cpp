@@ -15,14 +15,14 @@ bool EstimationOptions::isValid(std::string* why) const {
 }
 
 EstimationOptions EstimationOptions::paper() {
-  return {};
+  EstimationOptions options;
+  options.decomposition = Decomposition::PRISMS;
+  options.fit = FitMode::PAPER;
+  return options;
 }
 
 EstimationOptions EstimationOptions::best() {
-  EstimationOptions options;
-  options.decomposition = Decomposition::PARTS;
-  options.fit = FitMode::FULL;
-  return options;
+  return {};
 }
 
 } // namespace pcl_sq

@@ -115,8 +115,7 @@ bool writeFile(const std::string& path, const std::string& bytes, std::string* w
 }
 
 bool isWritable(const std::string& path, std::string* why) {
-  return succeeds(
-      [&] { detail::checkRights(path, detail::resolveOutput(path)); }, why);
+  return succeeds([&] { detail::checkRights(path, detail::resolveOutput(path)); }, why);
 }
 
 bool isSameFile(const std::string& a, const std::string& b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/object_view.h"
+#include "table_search.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -9,9 +9,7 @@ namespace pcl_sq {
 
 namespace {
 
-constexpr int ITERATIONS = 200;
 constexpr std::size_t SAMPLE = 600; ///< points that vote
-constexpr double MIN_SHARE = 0.33;
 constexpr std::size_t MIN_POINTS = 30;
 
 /** \brief Least squares through the points within \a distance; their number. */
@@ -46,6 +44,17 @@ bool findPlane(const std::vector<Eigen::Vector3d>& points,
                const Eigen::Vector3d& viewpoint,
                double inlier_distance,
                TableModel& plane) {
+  if (!detail::findPlane(points, inlier_distance, {}, plane))
+    return false;
+  if (plane.height(viewpoint) < 0.0)
+    plane = detail::flipped(plane);
+  return true;
+}
+
+bool detail::findPlane(const std::vector<Eigen::Vector3d>& points,
+                       double inlier_distance,
+                       const PlaneDemand& demand,
+                       TableModel& plane) {
   if (points.size() < MIN_POINTS)
     return false;
   std::mt19937 engine(5489U);
@@ -54,7 +63,7 @@ bool findPlane(const std::vector<Eigen::Vector3d>& points,
   for (std::size_t i = 0; i < SAMPLE; ++i)
     sample.push_back(pick());
   std::size_t best = 0;
-  for (int k = 0; k < ITERATIONS; ++k) {
+  for (int k = 0; k < demand.iterations; ++k) {
     const Eigen::Vector3d a = pick(), b = pick(), c = pick();
     const Eigen::Vector3d normal = (b - a).cross(c - a);
     if (!(normal.norm() > 1e-12))
@@ -70,17 +79,19 @@ bool findPlane(const std::vector<Eigen::Vector3d>& points,
       plane = t;
     }
   }
-  if (double(best) < MIN_SHARE * double(SAMPLE))
+  if (double(best) < demand.share * double(SAMPLE))
     return false;
+  return refitPlane(points, inlier_distance, plane);
+}
+
+bool detail::refitPlane(const std::vector<Eigen::Vector3d>& points,
+                        double inlier_distance,
+                        TableModel& plane) {
   double rms = inlier_distance;
   for (int k = 0; k < 3; ++k)
     if (refit(points, std::min(inlier_distance, 3.0 * rms + 1e-6), plane, rms) <
         MIN_POINTS)
       return false;
-  if (plane.height(viewpoint) < 0.0) {
-    plane.normal = -plane.normal;
-    plane.offset = -plane.offset;
-  }
   // neighbouring pixels share their errors: a tenth of the points counts
   plane.noise = rms;
   plane.sigma = std::max(3.0 * rms / std::sqrt(0.1 * double(points.size())), 0.1 * rms);

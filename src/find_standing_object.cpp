@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observe_parts.h"
+#include "table_search.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace pcl_sq {
@@ -20,7 +20,11 @@ constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked fo
 
 struct Region {
   std::vector<int> pixels;
-  bool cut = false; ///< by the image border
+  int sides = 0; ///< of the image that cut it, one bit each
+  bool cut() const { return sides != 0; }
+  /** \brief Cut by one side, as things are at whose edge a picture ends; what goes from
+   * side to side is a wall or a floor. */
+  bool cutOnce() const { return (sides & (sides - 1)) == 0; }
 };
 
 /** \brief Regions of pixels that are set, connected without a jump in depth. */
@@ -49,8 +53,8 @@ private:
   }
   void grow(int c, Region& region) {
     const int x = c % left_.width, y = c / left_.width;
-    region.cut =
-        region.cut || x == 0 || y == 0 || x == left_.width - 1 || y == left_.height - 1;
+    region.sides |= int(x == 0) | int(y == 0) << 1 | int(x == left_.width - 1) << 2 |
+                    int(y == left_.height - 1) << 3;
     const float depth = points_(2, c);
     // two pixels far, across missing ones
     for (int dy = -2; dy <= 2; ++dy)
@@ -68,16 +72,17 @@ private:
   std::size_t at_ = 0;
 };
 
-/** \brief The largest region that the image border does not cut. */
-std::vector<int> largest(Regions regions) {
+/** \brief The largest region that the image border does not cut; if there is none, the
+ * largest that but one of its sides cuts. */
+Region largest(Regions regions) {
   Region best;
   for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
-    const bool better = r.cut == best.cut ? r.pixels.size() > best.pixels.size()
-                                          : best.cut || best.pixels.empty();
-    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && better)
+    const bool better = r.cut() == best.cut() ? r.pixels.size() > best.pixels.size()
+                                              : best.cut() || best.pixels.empty();
+    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && r.cutOnce() && better)
       best = std::move(r);
   }
-  return best.cut ? std::vector<int>() : best.pixels;
+  return best;
 }
 
 CellRect boxOf(const std::vector<int>& pixels, int width) {
@@ -172,56 +177,26 @@ std::vector<int> fitting(Regions regions,
   return thing;
 }
 
-/** \brief Tries the largest planes as the table until something stands on one. */
-bool findOnTable(const CloudPoints& points,
-                 const CellMask& within,
-                 std::optional<TableModel>& table,
-                 CellMask& object,
-                 const std::function<std::vector<int>(const CellMask&)>& choose) {
-  object = CellMask(within.width, within.height);
-  const auto total = static_cast<std::size_t>(points.cols());
-  std::vector<Eigen::Vector3d> voters;
-  double depth = 0.0;
-  for (std::size_t i = 0; i < total; i += std::max<std::size_t>(1, total / VOTERS))
-    if (points.col(Eigen::Index(i)).allFinite()) {
-      voters.push_back(points.col(Eigen::Index(i)).cast<double>());
-      depth += voters.back().z();
-    }
-  if (voters.size() < 100)
-    return false;
-  depth = std::abs(depth) / double(voters.size());
-  // the largest plane may be a wall: nothing stands on one but its own noise
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    TableModel plane;
-    if (table)
-      plane = *table;
-    else if (!findPlane(voters, Eigen::Vector3d::Zero(), 0.008 * depth, plane))
-      return false;
-    CellMask above(within.width, within.height);
-    for (std::size_t i = 0; i < total; ++i) {
-      const Eigen::Vector3f p = points.col(Eigen::Index(i));
-      const auto standing =
-          static_cast<float>(detail::standingHeight(plane, double(p.z())));
-      above.cells[i] =
-          within.cells[i] &&
-          plane.normal.cast<float>().dot(p) + float(plane.offset) > standing;
-    }
-    const std::vector<int> pixels = choose(above);
-    if (!pixels.empty()) {
-      table = plane;
-      for (const int c : pixels)
-        object.cells[std::size_t(c)] = 1;
-      return true;
-    }
-    if (table)
-      return false;
-    std::vector<Eigen::Vector3d> rest;
-    for (const Eigen::Vector3d& p : voters)
-      if (std::abs(plane.height(p)) > 0.016 * depth)
-        rest.push_back(p);
-    voters.swap(rest);
-  }
-  return false;
+/** \brief Pixels that lie above a table, among all or some. */
+CellMask pixelsAbove(const TableModel& table,
+                     const CloudPoints& points,
+                     int width,
+                     int height,
+                     const std::vector<int>* within) {
+  CellMask above(width, height);
+  const auto look = [&](std::size_t i) {
+    const Eigen::Vector3f p = points.col(Eigen::Index(i));
+    const auto standing =
+        static_cast<float>(detail::standingHeight(table, double(p.z())));
+    above.cells[i] = table.normal.cast<float>().dot(p) + float(table.offset) > standing;
+  };
+  if (within)
+    for (const int c : *within)
+      look(std::size_t(c));
+  else
+    for (std::size_t i = 0; i < above.cells.size(); ++i)
+      look(i);
+  return above;
 }
 
 } // namespace
@@ -231,25 +206,75 @@ bool findStandingObject(const CloudPoints& points,
                         int height,
                         std::optional<TableModel>& table,
                         CellMask& object) {
-  CellMask everywhere(width, height);
-  std::fill(everywhere.cells.begin(), everywhere.cells.end(), std::uint8_t(1));
-  return findOnTable(points, everywhere, table, object, [&](const CellMask& above) {
-    return largest(Regions(points, above));
-  });
+  ViewOptions view;
+  view.table = table;
+  const detail::Standing found = detail::findInImage(points, width, height, view);
+  object = CellMask(width, height);
+  for (const int c : found.thing)
+    object.cells[std::size_t(c)] = 1;
+  if (!found.thing.empty())
+    table = found.table;
+  return !found.thing.empty();
 }
 
 namespace detail {
 
-bool findThingInRegion(const Observation& o,
-                       const CellMask& region,
-                       std::optional<TableModel> table,
-                       CellMask& thing) {
+Standing findInImage(const CloudPoints& points,
+                     int width,
+                     int height,
+                     const ViewOptions& view,
+                     const CellMask* region,
+                     float size) {
+  TableSearch search;
+  const auto total = static_cast<std::size_t>(points.cols());
+  double depth = 0.0;
+  for (std::size_t i = 0; i < total; i += evenStep(total, width, VOTERS))
+    if (points.col(Eigen::Index(i)).allFinite()) {
+      search.voters.push_back(points.col(Eigen::Index(i)).cast<double>());
+      depth += search.voters.back().z();
+    }
+  if (search.voters.size() < 100)
+    return {};
+  depth = std::abs(depth) / double(search.voters.size());
+  search.points_a_voter = double(evenStep(total, width, VOTERS));
+  search.distance = 0.008 * depth;
+  search.viewpoint = Eigen::Vector3d::Zero();
+  search.up = view.up;
+  search.table = view.table;
+  search.nested = !region; // a box names the thing
+  search.at = [&points](int c) {
+    return Eigen::Vector3d(points.col(c).cast<double>());
+  };
+  std::vector<int> inside;
+  CellRect box;
+  if (region) {
+    box = boundingRect(*region);
+    for (std::size_t i = 0; i < region->cells.size(); ++i)
+      if (region->cells[i])
+        inside.push_back(int(i));
+  }
+  search.choose = [&](const TableModel& table, const std::vector<int>* within) {
+    Standing found;
+    found.table = table;
+    Regions regions(
+        points, pixelsAbove(table, points, width, height, region ? &inside : within));
+    if (region)
+      found.thing = fitting(std::move(regions), points, box, width, size);
+    else {
+      Region best = largest(std::move(regions));
+      found.thing = std::move(best.pixels);
+      found.cut = best.cut();
+    }
+    return found;
+  };
+  return search.run();
+}
+
+Standing findInRegion(const Observation& o, const CellMask& region) {
   const CellRect box = boundingRect(region);
   const auto size = static_cast<float>(
       std::sqrt(box.area() / (o.out.camera.fx * o.out.camera.fy))); // over the depth
-  return findOnTable(o.points, region, table, thing, [&](const CellMask& above) {
-    return fitting(Regions(o.points, above), o.points, box, o.width, size);
-  });
+  return findInImage(o.points, o.width, o.height, o.view, &region, size);
 }
 
 } // namespace detail

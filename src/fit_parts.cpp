@@ -6,6 +6,7 @@
 #include "stopwatch.h"
 
 #include <algorithm>
+#include <mutex>
 
 namespace pcl_sq {
 
@@ -67,10 +68,16 @@ fitParts(const std::vector<RoiBox>& regions,
          const EstimationOptions& options,
          unsigned int threads) {
   std::vector<PartFit> fits(regions.size());
+  std::mutex mutex;
+  std::size_t done = 0;
   detail::parallelFor(regions.size(), threads, [&](std::size_t i) {
     const detail::Stopwatch watch;
     fits[i].summary = fitPart(regions[i], object_rotation, points(i), options);
     fits[i].milliseconds = watch.milliseconds();
+    if (options.progress) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      options.progress("fit", double(++done) / double(fits.size()));
+    }
   });
   return fits;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/impl/grasp_point_filter.hpp"
 
-#include "instantiate.h"
 #include "surface_statistics.h"
 
 #include <algorithm>
@@ -63,6 +62,49 @@ PointGrasp describeGraspPoint(const MultiSuperquadric& model,
   return result;
 }
 
-} // namespace pcl_sq
+namespace detail {
 
-PCL_SQ_INSTANTIATE(GraspPointFilter)
+void selectOnSurface(const MultiSuperquadric& model,
+                     const CoordinateMap& points,
+                     const pcl::Indices& indices,
+                     SurfaceMetric metric,
+                     double tolerance,
+                     pcl::Indices& on_surface,
+                     pcl::Indices& others) {
+  on_surface.clear();
+  others.clear();
+  constexpr Eigen::Index CHUNK = 4096; // points tested at a time
+  Eigen::Matrix3Xd chunk(3, CHUNK);
+  pcl::Indices tested;
+  const auto testChunk = [&] {
+    const auto n = static_cast<Eigen::Index>(tested.size());
+    const std::vector<bool> hits =
+        onSurface(model, chunk.leftCols(n), metric, tolerance);
+    for (std::size_t i = 0; i < tested.size(); ++i)
+      (hits[i] ? on_surface : others).push_back(tested[i]);
+    tested.clear();
+  };
+  for (const auto index : indices) {
+    const auto point = points.col(index);
+    if (!point.allFinite())
+      continue;
+    chunk.col(static_cast<Eigen::Index>(tested.size())) = point.cast<double>();
+    tested.push_back(index);
+    if (static_cast<Eigen::Index>(tested.size()) == CHUNK)
+      testChunk();
+  }
+  testChunk();
+}
+
+double surfaceNoise(const MultiSuperquadric& model,
+                    const CoordinateMap& points,
+                    const pcl::Indices& indices) {
+  Eigen::Matrix3Xd chosen(3, static_cast<Eigen::Index>(indices.size()));
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    chosen.col(static_cast<Eigen::Index>(i)) = points.col(indices[i]).cast<double>();
+  return pcl_sq::surfaceNoise(model, chosen);
+}
+
+} // namespace detail
+
+} // namespace pcl_sq

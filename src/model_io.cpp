@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/model_io.h"
 
+#include "json_text.h"
 #include "pcl_sq/tapered_superquadric.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* SCHEMA = "pcl_sq/model";
 constexpr int VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
+constexpr int TABLE_VERSION = 3;
 using Taper = std::array<double, 2>;
 
 bool isTapered(const Taper& taper) {
@@ -116,24 +118,35 @@ Taper taperFromJson(const Json& part, const Superquadric& shape, std::size_t ind
   return {taper[0], taper[1]};
 }
 
-/** \brief Whether the file may hold tapered parts. */
-bool versionFromJson(const Json& json, TaperedParts tapered_parts) {
+/** \brief The version, if it is one that is known. */
+int versionFromJson(const Json& json) {
   const Json& version = member(json, "version");
   const long long number = version.is_number_integer() ? version.get<long long>() : 0;
-  if (number == TAPERED_VERSION && tapered_parts == TaperedParts::REFUSE)
-    throw Refusal{"it holds a tapered superquadric (version 2 of the schema), which "
-                  "cannot be used here"};
-  if (number != VERSION && number != TAPERED_VERSION)
+  if (number < VERSION || number > TABLE_VERSION)
     throw Refusal{"version " + version.dump() +
-                  " of the schema is not known, 1 and 2 are"};
-  return number == TAPERED_VERSION;
+                  " of the schema is not known, 1 to 3 are"};
+  return static_cast<int>(number);
+}
+
+/** \brief The table; its normal comes out of unit length. */
+std::array<double, 4> tableFromJson(const Json& json) {
+  const Eigen::Vector4d table = numbers<4>(json, "table");
+  const double length = table.head<3>().norm();
+  if (!table.allFinite() || !(std::abs(length - 1.0) < 1e-3))
+    throw Refusal{"the normal of \"table\" must have length one"};
+  const Eigen::Vector4d t = table / length;
+  return {t[0], t[1], t[2], t[3]};
 }
 
 void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) {
-  const Json json = Json::parse(text);
+  Json json;
+  std::string why;
+  if (!detail::parseJson(text, json, &why))
+    throw Refusal{why};
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
-  const bool tapered = versionFromJson(json, tapered_parts);
+  const int version = versionFromJson(json);
+  const bool tapered = version >= TAPERED_VERSION;
   if (optionalString(json, "unit") != "m")
     throw Refusal{"the unit must be \"m\""};
   const Json& parts = member(json, "superquadrics");
@@ -148,6 +161,15 @@ void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) 
                                optionalNumber(parts[i], "rms_distance"),
                                optionalString(parts[i], "termination")});
   }
+  const bool any = std::any_of(file.tapers.begin(), file.tapers.end(), isTapered);
+  if (tapered_parts == TaperedParts::REFUSE && (version == TAPERED_VERSION || any))
+    throw Refusal{"it holds a tapered superquadric (version " +
+                  std::to_string(version) +
+                  " of the schema), which cannot be used here"};
+  if (version == TABLE_VERSION && !any)
+    file.tapers.clear();
+  if (version == TABLE_VERSION && json.contains("table"))
+    file.table = tableFromJson(json.at("table"));
   file.frame = optionalString(json, "frame");
   file.distortion = optionalNumber(json, "distortion");
   file.rms_distance = optionalNumber(json, "rms_distance");
@@ -166,6 +188,8 @@ void read(const std::string& text, ModelFile& file, TaperedParts tapered_parts) 
         file.timings_ms.emplace_back(stage, ms.get<double>());
   Json extra = Json::object();
   for (const auto& [key, value] : json.items()) {
+    if (key == "table" && file.table)
+      continue;
     static const std::vector<std::string> KNOWN = {"schema",
                                                    "version",
                                                    "unit",
@@ -206,7 +230,10 @@ std::string toJson(const ModelFile& file, int indent) {
   for (const auto& [stage, ms] : file.timings_ms)
     timings[stage] = ms;
   Json json = {{"schema", SCHEMA},
-               {"version", tapered ? TAPERED_VERSION : VERSION},
+               {"version",
+                file.table ? TABLE_VERSION
+                : tapered  ? TAPERED_VERSION
+                           : VERSION},
                {"unit", "m"},
                {"frame", file.frame},
                {"superquadrics", parts},
@@ -218,6 +245,8 @@ std::string toJson(const ModelFile& file, int indent) {
                  {"finite_points", file.finite_points}}},
                {"options", Json::parse(file.options_json)},
                {"timings_ms", timings}};
+  if (file.table)
+    json["table"] = *file.table;
   const Json extra = Json::parse(file.extra_json);
   for (const auto& [key, value] : extra.items())
     json[key] = value;
@@ -237,9 +266,12 @@ bool fromJson(const std::string& text,
   } catch (const Refusal& refusal) {
     if (why)
       *why = refusal.why;
-  } catch (const Json::exception& error) {
+  } catch (const Json::parse_error& error) {
     if (why)
-      *why = std::string("not valid JSON: ") + error.what();
+      *why = "not valid JSON, at byte " + std::to_string(error.byte);
+  } catch (const Json::exception&) {
+    if (why)
+      *why = "not valid JSON of a model: a member is of another type";
   }
   file = {};
   return false;

@@ -40,17 +40,23 @@ double halfDiagonal(const Eigen::Matrix3Xd& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
-/** \brief Whether a piece reaches the table: its lowest points are on it. */
-bool reachesTable(const PieceContext& context, const Eigen::Matrix3Xd& points) {
+/** \brief Whether a piece reaches the table: its lowest points are on it, or nobody
+ * saw that it ends before. \param[in] whole whether it is all of the object */
+bool reachesTable(const PieceContext& context,
+                  const Eigen::Matrix3Xd& points,
+                  bool whole) {
   if (!context.observed.table)
     return false;
+  if (whole && context.observed.hidden_below)
+    return true;
   std::vector<double> heights;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     heights.push_back(context.observed.table->height(points.col(i)));
   const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
   std::nth_element(heights.begin(), low, heights.end());
   // the lowest visible points of a body lie somewhat above its bottom's far edge
-  return *low < 0.18 * context.observed.extent + 3.0 * context.noise;
+  return *low <
+         0.18 * context.observed.extent + 3.0 * context.noise + context.observed.foot;
 }
 
 /** \brief Free pixels that a model covers. */
@@ -308,7 +314,7 @@ void fitPiece(const PieceContext& context,
   SupportEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
-                 reachesTable(context, points));
+                 reachesTable(context, points, piece.ends.empty()));
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(

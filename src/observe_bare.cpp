@@ -137,35 +137,51 @@ bool observeBare(Observation& o, std::string& why) {
   if (o.view.table)
     out.table = *o.view.table;
   checkTable(out);
+  if (out.table)
+    out.foot = standingHeight(
+        *out.table,
+        o.view.viewpoint ? (out.points.col(0) - *o.view.viewpoint).norm() : 0.0);
   std::optional<Eigen::Vector3d> viewpoint = o.view.viewpoint;
-  if (!viewpoint && isCameraFrame(out.points)) {
+  const auto above_table = [&out](const Eigen::Vector3d& place) {
+    return !out.table || out.table->height(place) > 0.0;
+  };
+  if (!viewpoint && above_table(Eigen::Vector3d::Zero()) && isCameraFrame(out.points)) {
     viewpoint = Eigen::Vector3d::Zero();
     out.notes.push_back("no viewpoint is given; the points lie before the origin "
                         "and each ray from there meets them once: it is taken as the "
-                        "camera's place");
+                        "camera's place; give it if it is another");
   }
-  if (!viewpoint && (viewpoint = guessViewpoint(out.points)))
-    out.notes.push_back("no viewpoint is given; the points show one side of something, "
-                        "and the camera is taken to be on it");
+  out.viewpoint_known = bool(viewpoint);
+  if (!viewpoint) {
+    viewpoint = guessViewpoint(out.points);
+    if (viewpoint && !above_table(*viewpoint))
+      viewpoint.reset();
+  }
+  if (viewpoint && !out.viewpoint_known)
+    out.notes.push_back(
+        "no viewpoint is given; the points show one side of something, "
+        "and the camera is taken to be on it; give its place if it is another");
   if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();
   const double distance = (mean - *viewpoint).norm();
   if (!(distance > 0.5 * out.extent)) {
     out.notes.push_back(
-        "the viewpoint lies inside the object; its outline is not used");
+        "the viewpoint lies inside the object, so its outline is not used; give the "
+        "camera's place in the cloud's frame");
     return true;
   }
   out.effective_points /= sharingOfErrors(out.points);
   out.camera = PinholeCamera::lookingAt(*viewpoint, mean, 500.0);
   out.depth = distance;
-  std::vector<Eigen::Vector2d> pixels;
-  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
-    if (out.camera.depthOf(out.points.col(i)) > 0.1 * distance)
-      pixels.push_back(out.camera.project(out.points.col(i)));
-  for (const Eigen::Vector2d& p : pixels) {
+  // just above the table the points end before the object does
+  const double floor = out.table ? lowestOutline(out) : 0.0;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i) {
+    if (!(out.camera.depthOf(out.points.col(i)) > 0.1 * distance))
+      continue;
     ContourPoint point;
-    point.pixel = p;
+    point.pixel = out.camera.project(out.points.col(i));
+    point.own = !out.table || out.table->height(out.points.col(i)) >= floor;
     out.contour.push_back(point);
   }
   out.outline = OutlineSource::POINTS;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "camera_pose.h"
 #include "observe_parts.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ bool ViewOptions::isValid(std::string* why) const {
     return refuse("the mask must hold width * height pixels");
   if (viewpoint && !viewpoint->allFinite())
     return refuse("the viewpoint must be finite");
+  if (up && !(up->allFinite() && up->norm() > 1e-9))
+    return refuse("the direction of up must be finite and not zero");
   if (table &&
       (!(std::abs(table->normal.norm() - 1.0) < 1e-3) || !std::isfinite(table->offset)))
     return refuse("the table's normal must have length one and its offset be finite");
@@ -67,6 +70,28 @@ SupportEvidence ObservedObject::evidence(
   return e;
 }
 
+namespace {
+
+/** \brief The camera of an organized cloud, its intrinsics those that are known. */
+bool findImage(const CloudPoints& points,
+               int width,
+               int height,
+               const ViewOptions& view,
+               PinholeCamera& camera) {
+  const bool found = findCamera(points, width, height, view.viewpoint, camera);
+  if (!view.camera)
+    return found;
+  // intrinsics alone say nothing of the frame: where it is not the camera's own, the
+  // cloud tells better
+  const bool elsewhere = found && !CameraPose(camera).isIdentity() &&
+                         CameraPose(*view.camera).isIdentity();
+  if (!elsewhere)
+    camera = *view.camera;
+  return true;
+}
+
+} // namespace
+
 bool observeObject(const CloudPoints& points,
                    int width,
                    int height,
@@ -91,21 +116,35 @@ bool observeObject(const CloudPoints& points,
                 std::to_string(view.mask.height) + " pixels, the cloud " +
                 std::to_string(width) + " x " + std::to_string(height) +
                 "; give the mask of the same image");
-  Observation o{points, width, height, object, view, observed};
-  if (organized) {
-    if (view.camera)
-      observed.camera = *view.camera;
-    else if (!findIntrinsics(points, width, height, observed.camera)) {
-      if (has_mask)
-        return fail("the cloud is no pinhole image in its camera's frame, so that its "
-                    "mask cannot be used; give the intrinsics or leave out the mask");
+  PinholeCamera camera;
+  if (!organized || !findImage(points, width, height, view, camera)) {
+    if (organized && has_mask)
+      return fail(
+          "the cloud is no pinhole image, so that its mask cannot be used; give "
+          "the intrinsics or leave out the mask");
+    if (organized)
       observed.notes.push_back(
-          "the organized cloud is no pinhole image; its points are taken as bare ones");
-      return observeBare(o, reason) || fail(reason);
-    }
+          "the cloud is no image of a camera, although it has rows, so its outline is "
+          "not used; give the camera's intrinsics if it is one");
+    Observation o{points, width, height, object, view, observed};
+    return observeBare(o, reason) || fail(reason);
+  }
+  observed.viewpoint_known = true;
+  const CameraPose pose(camera);
+  observed.camera = camera;
+  if (pose.isIdentity()) {
+    Observation o{points, width, height, object, view, observed};
     return observeImage(o, reason) || fail(reason);
   }
-  return observeBare(o, reason) || fail(reason);
+  observed.camera.center.setZero();
+  observed.camera.rotation.setIdentity();
+  const Eigen::Matrix3Xf moved = pose.toCamera(points);
+  const ViewOptions moved_view = pose.toCamera(view);
+  Observation o{moved, width, height, object, moved_view, observed};
+  if (!observeImage(o, reason))
+    return fail(reason);
+  pose.toCloud(observed, points);
+  return true;
 }
 
 } // namespace pcl_sq

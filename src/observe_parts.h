@@ -26,14 +26,6 @@ struct Observation {
 class DepthPatch;
 constexpr int MIN_IMAGE_POINTS = 30; ///< of an object in an image
 
-/** \brief The thing that a region was drawn around: pixels above the table that hang
- * together and whose box is the region's. Neighbours, what stands before or behind, and
- * the table itself are left out.
- * \return false if no such thing is found */
-[[nodiscard]] bool findThingInRegion(const Observation& o,
-                                     const CellMask& region,
-                                     std::optional<TableModel> table,
-                                     CellMask& thing);
 /** \brief The object's points that are to be fitted, their columns and effective
  * number. \param[in] box of the object's pixels \param[in] rim pixels beside the
  * outline that are left out while enough remain */
@@ -60,6 +52,14 @@ void checkTable(ObservedObject& observed);
 inline double standingHeight(const TableModel& table, double depth) {
   return std::max(4.0 * table.noise, 0.003 * depth);
 }
+
+/** \brief Height above the table from which on the outline is the object's own; a thin
+ * thing's is the edge of its top. */
+double lowestOutline(const ObservedObject& observed);
+
+/** \brief How far the object may reach below its points: foot and hidden_below.
+ * \param[in] rim pixels beside the outline that were left out */
+void findFoot(Observation& o, const CellRect& box, int rim);
 
 /** \brief How far each point's surface moves along its normal when the measurement
  * belongs a pixel beside the point's own [m]. */

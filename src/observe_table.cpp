@@ -65,7 +65,9 @@ void findTable(Observation& o, const CellRect& box) {
         rest.push_back(p);
     around.swap(rest);
   }
-  o.out.notes.push_back("no table was found under the object");
+  o.out.notes.push_back(
+      "no table was found under the object, so its lower end is where its points end; "
+      "give the table if there is one");
 }
 
 void checkTable(ObservedObject& observed) {
@@ -74,10 +76,12 @@ void checkTable(ObservedObject& observed) {
   const TableRelation relation = relationTo(*observed.table, observed);
   if (relation == TableRelation::ABOVE)
     observed.notes.push_back(
-        "the object lies below the table plane, which is left out");
+        "the object lies below the table plane, which is left out; check the table and "
+        "its sign");
   else if (relation == TableRelation::FAR)
     observed.notes.push_back(
-        "the object does not stand on the table plane, which is left out");
+        "the object does not stand on the table plane, which is left out; check the "
+        "table");
   if (relation != TableRelation::UNDER)
     observed.table.reset();
 }

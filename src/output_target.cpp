@@ -24,8 +24,7 @@ constexpr mode_t ANYBODY_WRITES = S_IWUSR | S_IWGRP | S_IWOTH;
 std::atomic<int> standard_output{STDOUT_FILENO};
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  const std::string place =
-      path == "-" ? "to standard output" : "'" + path + "'";
+  const std::string place = path == "-" ? "to standard output" : "'" + path + "'";
   throw FileFailure{"cannot write " + place + ": " + why};
 }
 
@@ -36,7 +35,8 @@ int ownDescriptor(const fs::path& folder, const std::string& name) {
   const std::string place = folder.string();
   if (place.compare(0, process.size(), process) != 0 || folder.filename() != "fd" ||
       name.empty() || name.size() > 6 ||
-      !std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
+      !std::all_of(
+          name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
     return -1;
   const int number = std::stoi(name);
   return number == STDOUT_FILENO ? standardOutput() : number;

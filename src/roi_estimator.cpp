@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/impl/roi_estimator.hpp"
-
-#include "instantiate.h"
+#include "pcl_sq/roi_estimator.h"
 
 namespace pcl_sq {
 
@@ -34,5 +32,3 @@ bool PixelRays::isValid() const {
 }
 
 } // namespace pcl_sq
-
-PCL_SQ_INSTANTIATE(RoiEstimator)

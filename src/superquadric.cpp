@@ -52,6 +52,13 @@ bool Superquadric::isValid(std::string* why) const {
     return fail("a parameter is not finite");
   if (semi_axes.minCoeff() <= 0.0)
     return fail("a semi-axis is not positive");
+  // Moments of inertia are fifth powers of lengths, and squares of them are summed: the
+  // tenth power of these, and some more, is still a double.
+  constexpr double SMALLEST = 1e-20, LARGEST = 1e20;
+  if (semi_axes.minCoeff() < SMALLEST || semi_axes.maxCoeff() > LARGEST)
+    return fail("a semi-axis is outside [1e-20, 1e20] m");
+  if (center.cwiseAbs().maxCoeff() > LARGEST)
+    return fail("the centre is farther than 1e20 m from the origin");
   for (const double epsilon : {epsilon1, epsilon2})
     if (epsilon < MIN_EPSILON || epsilon > MAX_EPSILON)
       return fail("an exponent is outside [0.05, 2]");

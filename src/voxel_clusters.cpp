@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "voxel_clusters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -17,15 +18,13 @@ std::int64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 struct Voxel {
   std::int64_t x, y, z;
-  std::size_t points;
   int cluster;
 };
 
 } // namespace
 
-std::vector<int> largestCluster(const Eigen::Matrix3Xf& points,
-                                const std::vector<int>& columns,
-                                double gap) {
+std::vector<std::vector<int>>
+clustersOf(const CloudPoints& points, const std::vector<int>& columns, double gap) {
   if (columns.empty())
     return {};
   Eigen::Vector3d low = points.col(columns[0]).cast<double>();
@@ -43,23 +42,19 @@ std::vector<int> largestCluster(const Eigen::Matrix3Xf& points,
     const auto [it, added] =
         index.try_emplace(keyOf(c[0], c[1], c[2]), int(voxels.size()));
     if (added)
-      voxels.push_back({c[0], c[1], c[2], 0, -1});
-    ++voxels[it->second].points;
+      voxels.push_back({c[0], c[1], c[2], -1});
     voxel_of.push_back(it->second);
   }
-  int clusters = 0, best = 0;
-  std::size_t best_points = 0;
+  int clusters = 0;
   std::vector<int> stack;
   for (std::size_t seed = 0; seed < voxels.size(); ++seed) {
     if (voxels[seed].cluster >= 0)
       continue;
-    std::size_t count = 0;
     voxels[seed].cluster = clusters;
     stack.push_back(int(seed));
     while (!stack.empty()) {
       const Voxel v = voxels[stack.back()];
       stack.pop_back();
-      count += v.points;
       for (int n = 0; n < 27; ++n) {
         const auto it =
             index.find(keyOf(v.x + n % 3 - 1, v.y + n / 3 % 3 - 1, v.z + n / 9 - 1));
@@ -69,16 +64,14 @@ std::vector<int> largestCluster(const Eigen::Matrix3Xf& points,
         stack.push_back(it->second);
       }
     }
-    if (count > best_points) {
-      best_points = count;
-      best = clusters;
-    }
     ++clusters;
   }
-  std::vector<int> result;
+  std::vector<std::vector<int>> result(static_cast<std::size_t>(clusters));
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (voxels[voxel_of[i]].cluster == best)
-      result.push_back(columns[i]);
+    result[std::size_t(voxels[std::size_t(voxel_of[i])].cluster)].push_back(columns[i]);
+  std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return a.size() > b.size();
+  });
   return result;
 }
 

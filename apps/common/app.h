@@ -23,9 +23,13 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/** \brief The frame of a main(): adds --version and -q, parses, runs, and turns every
- * error into one sentence on stderr and an exit code; at the end it tells which files
- * were written.
+/** \brief What an error tells the user, in one sentence: errors of our own as they are,
+ * those of other libraries as what they are to the user. */
+std::string sentenceOf(const std::exception& error);
+
+/** \brief The frame of a main(): adds --version and -q, parses, refuses options without
+ * effect, runs, and turns every error into one sentence on stderr and an exit
+ * code; at the end it tells which files were written.
  * \param[in] configure adds the program's own options
  * \param[in] body the work; returns an exit code */
 int run(int argc,
@@ -38,6 +42,27 @@ int run(int argc,
 
 /** \brief Whether -q/--quiet was given. */
 bool quiet();
+
+/** \brief Tells the user something that is no failure, such as a fall-back: one line on
+ * stderr, each sentence once; silent with -q. May be called from any thread. */
+void note(const std::string& sentence);
+
+/** \brief The stage of long work on stderr, such as "fitting ..."; silent when stderr
+ * is no terminal or -q was given. Gone when the object is. May be called from any
+ * thread. */
+class StageLine {
+public:
+  StageLine() = default;
+  ~StageLine() { clear(); }
+  StageLine(const StageLine&) = delete;
+  StageLine& operator=(const StageLine&) = delete;
+  /** \param[in] share done of the stage, 0 to 1 */
+  void show(const std::string& stage, double share = 0.0);
+  void clear();
+
+private:
+  std::string shown_;
+};
 
 /** \brief A progress bar on stderr; silent when stderr is no terminal or -q was given.
  */

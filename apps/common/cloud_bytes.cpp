@@ -12,7 +12,8 @@ namespace pcl_sq::app {
 
 namespace {
 
-/** \brief The bytes of a number; every machine that PCL runs on has the lowest first. */
+/** \brief The bytes of a number; every machine that PCL runs on has the lowest first.
+ */
 template <typename Number>
 void append(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -36,10 +37,23 @@ std::string plyBytes(const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
       std::to_string(cloud.size()) +
       "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
       "property uchar green\nproperty uchar blue\nelement camera 1\n";
-  for (const char* name : {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy",
-                           "x_axisz", "y_axisx", "y_axisy", "y_axisz", "z_axisx",
-                           "z_axisy", "z_axisz", "focal",   "scalex",  "scaley",
-                           "centerx", "centery"})
+  for (const char* name : {"view_px",
+                           "view_py",
+                           "view_pz",
+                           "x_axisx",
+                           "x_axisy",
+                           "x_axisz",
+                           "y_axisx",
+                           "y_axisy",
+                           "y_axisz",
+                           "z_axisx",
+                           "z_axisy",
+                           "z_axisz",
+                           "focal",
+                           "scalex",
+                           "scaley",
+                           "centerx",
+                           "centery"})
     bytes += std::string("property float ") + name + "\n";
   bytes += "property int viewportx\nproperty int viewporty\nproperty float k1\n"
            "property float k2\nend_header\n";

@@ -3,137 +3,141 @@
 
 #include "app.h"
 #include "files.h"
-#include "header_check.h"
+#include "missing_points.h"
+#include "sample_surface.h"
+#include "shape.h"
+#include "text.h"
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
-
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <sstream>
+#include <iterator>
 
 namespace pcl_sq::app {
 
 namespace {
 
-using Cloud = pcl::PointCloud<pcl::PointXYZRGBA>;
-
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Failure("cannot read '" + path + "': " + what + ".");
-}
-
-bool hasField(const pcl::PCLPointCloud2& blob, const std::string& name) {
-  for (const auto& field : blob.fields)
-    if (field.name == name)
-      return true;
-  return false;
-}
-
-/** \brief Text with three numbers in front of each line, or behind a leading "v". */
-Cloud::Ptr parseText(const std::string& path, bool wavefront) {
-  std::istringstream lines(readInput(path));
-  auto cloud = pcl::make_shared<Cloud>();
-  std::string line;
-  std::size_t number = 0;
-  while (std::getline(lines, line)) {
-    ++number;
-    const char* at = line.c_str();
-    if (wavefront) {
-      if (line.size() < 2 || line[0] != 'v' || (line[1] != ' ' && line[1] != '\t'))
-        continue;
-      ++at;
-    } else if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#')
-      continue;
-    pcl::PointXYZRGBA p;
-    for (float& value : p.data) {
-      if (&value == &p.data[3])
-        break;
-      char* end = nullptr;
-      value = std::strtof(at, &end);
-      if (end == at)
-        fail(path, "line " + std::to_string(number) + " does not hold three numbers");
-      at = *end == ',' || *end == ';' ? end + 1 : end;
-    }
-    cloud->push_back(p);
+/** \brief Middle and half size of most of the points; a few strays do not count. */
+void findMiddle(const std::vector<Eigen::Vector3d>& points,
+                Eigen::Vector3d& middle,
+                double& half_size) {
+  constexpr std::size_t LOOKED_AT = 10000;
+  const std::size_t step = points.size() / LOOKED_AT + 1;
+  half_size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < points.size(); i += step)
+      if (!std::isnan(points[i].x()))
+        values.push_back(points[i][axis]);
+    if (values.empty())
+      return middle.setZero(), void();
+    std::sort(values.begin(), values.end());
+    const double low = values[values.size() / 20];
+    const double high = values[values.size() - 1 - values.size() / 20];
+    middle[axis] = 0.5 * (low + high);
+    half_size = std::max(half_size, 0.5 * (high - low));
   }
-  return cloud;
 }
 
-void readBlob(const std::string& path, LoadedCloud& loaded, bool ply) {
-  const std::string wrong = ply ? checkPlyHeader(path) : checkPcdHeader(path);
-  if (!wrong.empty())
-    fail(path, wrong);
-  pcl::PCLPointCloud2 blob;
-  Eigen::Vector4f origin = Eigen::Vector4f::Zero();
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  int version = 0;
-  const int status =
-      ply ? pcl::PLYReader().read(path, blob, origin, orientation, version)
-          : pcl::PCDReader().read(path, blob, origin, orientation, version);
-  if (status < 0)
-    fail(path, "its contents do not match its header");
-  for (const char* axis : {"x", "y", "z"})
-    if (!hasField(blob, axis))
-      fail(path, std::string("it has no field '") + axis + "'");
-  loaded.has_color = hasField(blob, "rgb") || hasField(blob, "rgba");
-  if (loaded.has_color)
-    pcl::fromPCLPointCloud2(blob, *loaded.cloud);
-  else {
-    pcl::PointCloud<pcl::PointXYZ> plain;
-    pcl::fromPCLPointCloud2(blob, plain);
-    blob = {};
-    pcl::copyPointCloud(plain, *loaded.cloud);
+/** \brief Whole metres to take off before single precision.
+ *
+ * A float has 24 bits. A cloud that lies 128 times its half size away has lost seven of
+ * them, and what is left is less than sensors resolve of their range (16 bits). */
+Eigen::Vector3d findOffset(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double BITS_LOST = 128.0;
+  Eigen::Vector3d middle;
+  double half_size;
+  findMiddle(points, middle, half_size);
+  for (double& m : middle)
+    m = std::abs(m) > BITS_LOST * half_size ? std::round(m) : 0.0;
+  return middle;
+}
+
+/** \brief Scales to metres. */
+void toMetres(Shape& shape, const CloudOptions& options) {
+  const double scale = options.scale();
+  if (scale != 1.0)
+    for (Eigen::Vector3d& p : shape.points)
+      p *= scale;
+  shape.origin *= scale;
+}
+
+void copyPoints(const Shape& shape, LoadedCloud& loaded) {
+  auto& cloud = *loaded.cloud;
+  cloud.resize(shape.points.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    auto& p = cloud[i];
+    p.getVector3fMap() = (shape.points[i] - loaded.offset).cast<float>();
+    if (p.getVector3fMap().allFinite())
+      ++loaded.finite_points;
+    else
+      p.x = p.y = p.z = std::numeric_limits<float>::quiet_NaN();
+    if (loaded.has_color)
+      p.rgba = 0xff000000U | shape.colors[i];
   }
-  loaded.cloud->sensor_origin_ = origin;
-  loaded.cloud->sensor_orientation_ = orientation;
+  if (shape.height > 1) {
+    cloud.width = shape.width;
+    cloud.height = shape.height;
+  }
+  cloud.is_dense = loaded.finite_points == cloud.size();
+}
+
+void sampleFaces(Shape& shape, const CloudOptions& options, LoadedCloud& loaded) {
+  for (const auto& triangle : shape.triangles)
+    for (const std::uint32_t corner : triangle)
+      if (!(shape.points[corner].cwiseAbs().maxCoeff() <= 1e9))
+        throw Failure("its vertex " + std::to_string(corner + 1) +
+                      " has a coordinate that is no length in metres");
+  std::vector<Eigen::Vector3d> points = sampleSurface(shape, options.samples);
+  if (points.empty())
+    throw Failure("its faces have no area");
+  loaded.notes.push_back(std::to_string(shape.faces) + " faces sampled with " +
+                         std::to_string(points.size()) + " points");
+  shape = Shape();
+  shape.points = std::move(points);
 }
 
 } // namespace
 
-LoadedCloud loadCloud(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    fail(path, "the file does not exist");
-  if (std::filesystem::is_directory(path, error))
-    fail(path, "it is a folder");
-  LoadedCloud loaded;
-  loaded.cloud = pcl::make_shared<Cloud>();
-  const std::string extension = extensionOf(path);
+Shape loadShape(const std::string& path) {
+  const std::string bytes = readFile(path);
   try {
-    if (extension == ".pcd" || extension == ".ply")
-      readBlob(path, loaded, extension == ".ply");
-    else if (extension == ".obj")
-      loaded.cloud = parseText(path, true);
-    else if (extension == ".xyz" || extension == ".txt")
-      loaded.cloud = parseText(path, false);
-    else
-      fail(path, "its extension is none of .pcd, .ply, .obj, .xyz and .txt");
-  } catch (const Failure&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {
-    fail(path, e.what());
+    return readShape(bytes, extensionOf(path));
+  } catch (const Failure& failure) {
+    throw Failure("cannot read '" + printable(path) + "': " + failure.what() + ".");
   }
-  const bool organized = loaded.cloud->isOrganized();
-  for (auto& p : *loaded.cloud) {
-    // depth cameras mark missing pixels as NaN or as the origin; both become NaN
-    const bool missing = !std::isfinite(p.x) || !std::isfinite(p.y) ||
-                         !std::isfinite(p.z) ||
-                         (organized && p.x == 0 && p.y == 0 && p.z == 0);
-    if (missing)
-      p.x = p.y = p.z = std::numeric_limits<float>::quiet_NaN();
-    else
-      ++loaded.finite_points;
-  }
-  loaded.cloud->is_dense = loaded.finite_points == loaded.cloud->size();
-  if (loaded.cloud->empty())
-    fail(path, "it holds no points");
+}
+
+LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
+  LoadedCloud loaded;
+  loaded.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZRGBA>>();
+  if (shape.points.empty())
+    throw Failure("it holds no points");
+  toMetres(shape, options);
+  if (!shape.triangles.empty())
+    sampleFaces(shape, options, loaded);
+  else
+    for (const std::string& note : dropMissingPoints(shape))
+      loaded.notes.push_back(note);
+  loaded.has_color = !shape.colors.empty();
+  loaded.offset = findOffset(shape.points);
+  copyPoints(shape, loaded);
   if (loaded.finite_points == 0)
-    fail(path, "all of its points are NaN or infinite");
+    throw Failure("all of its points are missing: not finite, or 0 0 0");
+  auto& cloud = *loaded.cloud;
+  // a place of 0 0 0 in a far cloud is the default: nobody knows where the sensor was
+  if (!shape.origin.isZero())
+    cloud.sensor_origin_.head<3>() = (shape.origin - loaded.offset).cast<float>();
+  cloud.sensor_orientation_ = shape.orientation.cast<float>();
   return loaded;
+}
+
+LoadedCloud loadCloud(const std::string& path, const CloudOptions& options) {
+  Shape shape = loadShape(path);
+  try {
+    return makeCloud(std::move(shape), options);
+  } catch (const Failure& failure) {
+    throw Failure("cannot read '" + printable(path) + "': " + failure.what() + ".");
+  }
 }
 
 } // namespace pcl_sq::app

@@ -30,9 +30,9 @@ void checkFormat(const std::string& option,
 
 } // namespace
 
-std::string readInput(const std::string& path) {
+std::string readFile(const std::string& path) {
   std::string bytes, why;
-  if (!readFile(path, bytes, &why))
+  if (!pcl_sq::readFile(path, bytes, &why))
     throw Failure(why + ".");
   return bytes;
 }

@@ -13,7 +13,7 @@ using pcl_sq::formatOf;
 
 /** \brief The whole file, "-" for standard input. \throw Failure if it cannot be read
  */
-std::string readInput(const std::string& path);
+std::string readFile(const std::string& path);
 
 /** \brief Writes a file whole or not at all, "-" for standard output, and remembers it
  * for the line that tells what was written. \throw Failure if it cannot be written */

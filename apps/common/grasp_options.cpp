@@ -2,6 +2,7 @@
 #include "app.h"
 #include "files.h"
 #include "grasp_output.h"
+#include "value_checks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,13 +23,13 @@ std::string presetList() {
 /** \brief A number of a TOML file. */
 double numberOf(const CLI::ConfigItem& item, const std::string& path) {
   double number = 0.0;
-  if (item.inputs.size() != 1 || !CLI::detail::lexical_cast(item.inputs[0], number))
+  if (item.inputs.size() != 1 || !parseNumber(item.inputs[0], number))
     throw UsageError("'" + path + "': " + item.name + " is not a number");
   return number;
 }
 
 Gripper gripperFromToml(const std::string& path) {
-  std::istringstream stream(readInput(path));
+  std::istringstream stream(readFile(path));
   Gripper gripper;
   gripper.name = path;
   const std::map<std::string, double Gripper::*> sizes = {
@@ -60,6 +61,21 @@ Gripper gripperFromToml(const std::string& path) {
   return gripper;
 }
 
+/** \brief The camera's place that the report of a model file tells of, if it is known.
+ */
+std::optional<Eigen::Vector3d> knownSensor(const ModelFile& file) {
+  const auto extra = nlohmann::json::parse(file.extra_json);
+  const auto report = extra.value("report", nlohmann::json::object());
+  if (!report.is_object() || !report.contains("sensor_known") ||
+      report["sensor_known"] != true || !report.contains("sensor"))
+    return std::nullopt;
+  const auto& place = report["sensor"];
+  if (!place.is_array() || place.size() != 3 || !place[0].is_number() ||
+      !place[1].is_number() || !place[2].is_number())
+    return std::nullopt;
+  return Eigen::Vector3d(place[0], place[1], place[2]);
+}
+
 } // namespace
 
 GraspOptions::GraspOptions() {
@@ -86,15 +102,18 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
       ->default_str(options.gripper.name);
   cli.add_option("--friction",
                  options.planner.friction,
-                 "Coefficient between finger and object, 0.05 to 2")
+                 "Coefficient between finger and object")
+      ->check(number(0.05, 2.0))
       ->capture_default_str();
   cli.add_option("--clearance",
                  options.planner.clearance,
                  "Least distance of the hand to table and obstacles [m]")
+      ->check(number(0.0, 1.0))
       ->capture_default_str();
   cli.add_option("--min-observed",
                  options.planner.min_observed,
-                 "Least share of the contacts that the camera saw, 0 to 1")
+                 "Least share of the contacts that the camera saw")
+      ->check(number(0.0, 1.0))
       ->capture_default_str();
 }
 
@@ -102,6 +121,7 @@ void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
   cli.add_option("-o,--output", options.output, "Grasps as JSON; -: standard output")
       ->type_name("FILE");
   cli.add_option("--count", options.planner.count, "Most grasps to give")
+      ->check(wholeNumber(1, 10000))
       ->capture_default_str();
   cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
       ->type_name("DIR");
@@ -117,31 +137,37 @@ void checkGraspOptions(const GraspOptions& options) {
   std::string why;
   if (!options.planner.isValid(&why))
     throw UsageError(why);
-  if (!options.table.empty() &&
-      !(Eigen::Map<const Eigen::Vector3d>(options.table.data()).norm() > 1e-9))
-    throw UsageError("--table needs a normal that is not zero");
+  (void)options.frame.tableOf(); // refuse what makes no sense before the work
+  (void)options.frame.viewpointOf();
+  (void)options.frame.upOf();
   claimOutput("--output", options.output);
   if (!options.graspit.empty())
     claimFolder(options.graspit);
   claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
-GraspScene makeScene(const GraspOptions& options, const ModelFile& file) {
+GraspScene makeScene(const GraspOptions& options,
+                     const ModelFile& file,
+                     const LoadedCloud* cloud) {
   GraspScene scene;
-  std::vector<double> table = options.table;
-  const auto extra = nlohmann::json::parse(file.extra_json);
-  const auto known = nlohmann::json::json_pointer("/report/table");
-  if (table.empty() && extra.contains(known) && extra[known].is_array())
-    table = extra[known].get<std::vector<double>>();
-  if (table.size() == 4) {
-    const Eigen::Map<const Eigen::Vector3d> normal(table.data());
+  if (const auto table = options.frame.tableOf()) {
     scene.has_table = true;
-    scene.table_normal = normal.normalized();
-    scene.table_offset = table[3] / normal.norm();
+    scene.table_normal = table->normal;
+    scene.table_offset = table->offset;
+  } else if (file.table) {
+    const auto& t = *file.table;
+    scene.has_table = true;
+    scene.table_normal = Eigen::Vector3d(t[0], t[1], t[2]);
+    scene.table_offset = t[3];
   }
-  if (!options.viewpoint.empty()) {
+  std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
+  if (!viewpoint)
+    viewpoint = knownSensor(file);
+  if (!viewpoint && cloud)
+    viewpoint = viewpointOf(*cloud);
+  if (viewpoint) {
     scene.has_viewpoint = true;
-    scene.viewpoint = Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data());
+    scene.viewpoint = *viewpoint;
   }
   return scene;
 }

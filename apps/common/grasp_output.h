@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud_io.h"
+#include "frame_options.h"
 
 #include "pcl_sq/grasp_planner.h"
 #include "pcl_sq/model_io.h"
@@ -17,12 +18,11 @@ namespace pcl_sq::app {
 struct GraspOptions {
   Gripper gripper;
   GraspPlannerOptions planner;
-  std::vector<double> table;     ///< nx, ny, nz, d of n . p + d = 0, or empty
-  std::vector<double> viewpoint; ///< [m], or empty
-  std::string output;            ///< grasps as JSON
-  std::string snapshot;          ///< picture
-  std::string graspit;           ///< folder for GraspIt!'s files
-  bool part_bodies = false;      ///< also one body per part for GraspIt!
+  FrameOptions frame;
+  std::string output;       ///< grasps as JSON
+  std::string snapshot;     ///< picture
+  std::string graspit;      ///< folder for GraspIt!'s files
+  bool part_bodies = false; ///< also one body per part for GraspIt!
 
   GraspOptions();
 };
@@ -40,9 +40,12 @@ void checkGraspOptions(const GraspOptions& options);
  * \throw UsageError naming the presets, or the key that is wrong */
 Gripper readGripper(const std::string& preset_or_path);
 
-/** \brief The scene of a model: table and viewpoint from the options, else the table
- * that the model file's report tells of. */
-GraspScene makeScene(const GraspOptions& options, const ModelFile& file);
+/** \brief The scene of a model: table and viewpoint from the options, else those that
+ * the model file tells of, else the viewpoint that the cloud does. A place of the
+ * camera that was guessed is none: which sides are unseen is not known then. \param[in]
+ * cloud the scene, or nullptr */
+GraspScene
+makeScene(const GraspOptions& options, const ModelFile& file, const LoadedCloud* cloud);
 
 /** \brief All points of a cloud as columns. */
 Eigen::Matrix3Xd columnsOf(const LoadedCloud& input);

@@ -7,6 +7,13 @@
 
 namespace pcl_sq::app {
 
+/** \brief Reads an image: PNG, JPEG, BMP, PNM, PFM or TIFF; what cannot be decoded
+ * whole is refused. \param[in] flags as of cv::imread \throw Failure */
+cv::Mat readImage(const std::string& path, int flags);
+
+/** \brief As readImage(), of a file's bytes. \param[in] name for messages */
+cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags);
+
 /** \brief claimOutput() for a picture: PNG into pipes and devices, otherwise as the
  * ending says. \throw UsageError too, if no picture has that ending */
 void claimImage(const std::string& option, const std::string& path);

@@ -19,7 +19,7 @@ struct Selection {
   pcl::IndicesPtr indices = pcl::make_shared<pcl::Indices>();
   bool has_region = false;
   RoiBox region;
-  std::optional<TablePlane> table; ///< where the plane was removed
+  std::optional<TableModel> table; ///< where the plane was removed
 };
 
 pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
@@ -33,6 +33,60 @@ pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
          ++x)
       indices->push_back(y * int(cloud.width) + x);
   return indices;
+}
+
+RoiBox boxOf(const ModelOptions& options) {
+  RoiBox box;
+  box.min = Eigen::Vector3d(options.box[0], options.box[1], options.box[2]);
+  box.max = Eigen::Vector3d(options.box[3], options.box[4], options.box[5]);
+  return box;
+}
+
+pcl::IndicesPtr pointsInBox(const pcl::PointCloud<Point>& cloud, const RoiBox& box) {
+  auto indices = pcl::make_shared<pcl::Indices>();
+  const Eigen::AlignedBox3d aligned(box.min, box.max);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (aligned.contains(cloud[i].getVector3fMap().cast<double>()))
+      indices->push_back(static_cast<pcl::index_t>(i));
+  return indices;
+}
+
+/** \brief II-B: the region's points at one depth and their box. Depth is along the
+ * camera's axis, whatever frame the cloud is in. */
+bool openAperture(const LoadedCloud& input,
+                  const ModelOptions& options,
+                  const PixelRect& rect,
+                  Selection& selection) {
+  RoiEstimator<Point> estimator;
+  estimator.setRect(rect);
+  std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
+  if (!viewpoint)
+    viewpoint = viewpointOf(input);
+  PinholeCamera camera;
+  const bool moved = findCamera(coordinatesOf(input),
+                                static_cast<int>(input.cloud->width),
+                                static_cast<int>(input.cloud->height),
+                                viewpoint,
+                                camera) &&
+                     !(camera.center.isZero() && camera.rotation.isIdentity());
+  if (!moved) {
+    estimator.setInputCloud(input.cloud);
+    return estimator.estimate(selection.region, *selection.indices);
+  }
+  auto seen = pcl::make_shared<pcl::PointCloud<Point>>(*input.cloud);
+  for (Point& p : *seen)
+    p.getVector3fMap() = (camera.rotation.transpose() *
+                          (p.getVector3fMap().cast<double>() - camera.center))
+                             .cast<float>();
+  estimator.setInputCloud(seen);
+  if (!estimator.estimate(selection.region, *selection.indices))
+    return false;
+  Eigen::AlignedBox3d box;
+  for (const auto index : *selection.indices)
+    box.extend((*input.cloud)[index].getVector3fMap().cast<double>());
+  selection.region.min = box.min();
+  selection.region.max = box.max();
+  return true;
 }
 
 /** \brief II-B: the aperture of the region in the image, or the object on the table. */
@@ -51,19 +105,24 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   }
   if (options.remove_plane) {
     TabletopSegmentation<Point> tabletop;
-    tabletop.setOptions(options.tabletop);
+    TabletopOptions settings;
+    settings.viewpoint = options.frame.viewpointOf();
+    settings.up = options.frame.upOf();
+    settings.table = options.frame.tableOf();
+    tabletop.setOptions(settings);
     tabletop.setInputCloud(input.cloud);
     if (!rect.empty())
       tabletop.setCandidates(pointsInImage(cloud, rect));
+    else if (!options.box.empty())
+      tabletop.setCandidates(pointsInBox(cloud, boxOf(options)));
     if (!tabletop.segment(*selection.indices))
       throw Failure(tabletop.getFailure() + ".");
-    selection.table = tabletop.getPlane();
-  } else if (!rect.empty()) {
-    RoiEstimator<Point> estimator;
-    estimator.setInputCloud(input.cloud);
-    estimator.setRect(rect);
+    selection.table = tabletop.getTable();
+    return selection;
+  }
+  if (!rect.empty()) {
     selection.has_region = true;
-    if (!estimator.estimate(selection.region, *selection.indices))
+    if (!openAperture(input, options, rect, selection))
       throw Failure("the --roi holds no cluster of points at one depth.");
   } else {
     selection.indices->resize(cloud.size());
@@ -71,12 +130,34 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   }
   if (!options.box.empty()) {
     selection.has_region = true;
-    selection.region.min =
-        Eigen::Vector3d(options.box[0], options.box[1], options.box[2]);
-    selection.region.max =
-        Eigen::Vector3d(options.box[3], options.box[4], options.box[5]);
+    selection.region = boxOf(options);
   }
   return selection;
+}
+
+/** \brief Table, up and the camera's place, as far as they are known. */
+void tellFrame(const LoadedCloud& input,
+               const ModelOptions& options,
+               const std::optional<TableModel>& removed,
+               ModelResult& result) {
+  const ObservedObject& view = result.report.view;
+  const std::optional<TableModel>& table = removed ? removed : view.table;
+  if (table) {
+    const Eigen::Vector3d& n = table->normal;
+    result.file.table = {n.x(), n.y(), n.z(), table->offset};
+    result.up = n;
+  }
+  if (const auto up = options.frame.upOf())
+    result.up = up->normalized();
+  if (view.hasCamera()) {
+    result.sensor = view.camera.center;
+    result.sensor_known = view.viewpoint_known;
+  } else {
+    result.sensor = options.frame.viewpointOf();
+    if (!result.sensor)
+      result.sensor = viewpointOf(input);
+    result.sensor_known = result.sensor.has_value();
+  }
 }
 
 } // namespace
@@ -88,14 +169,17 @@ ModelResult makeModel(const LoadedCloud& input,
   ModelResult result;
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
-  StageTimer timer(timings);
+  StageTimer timer(timings, options.estimation.progress);
   const Selection selection =
       timer.run("object", [&] { return chooseObject(input, options); });
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(input.cloud);
-  estimation.setIndices(selection.indices);
+  if (selection.indices->size() < input.cloud->size())
+    estimation.setIndices(selection.indices);
   EstimationOptions settings = options.estimation;
   settings.view = makeView(options);
+  if (selection.table)
+    settings.view.table = selection.table;
   settings.object_fit.fit.taper = options.taper;
   std::string why;
   if (!settings.isValid(&why))
@@ -110,14 +194,9 @@ ModelResult makeModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
-  if (selection.table)
-    result.up = selection.table->normal;
-  else if (result.report.view.table)
-    result.up = result.report.view.table->normal;
-  if (result.report.view.hasCamera())
-    result.sensor = result.report.view.camera.center;
-  else if (input.cloud->isOrganized()) // an image of points
-    result.sensor = input.cloud->sensor_origin_.head<3>().cast<double>();
+  result.report.notes.insert(
+      result.report.notes.begin(), input.notes.begin(), input.notes.end());
+  tellFrame(input, options, selection.table, result);
 
   ModelFile& file = result.file;
   file.model = model;

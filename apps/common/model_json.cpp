@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model_json.h"
 
+#include "summary.h"
+
 #include <nlohmann/json.hpp>
 
 namespace pcl_sq::app {
@@ -58,8 +60,10 @@ std::string reportToJson(const ModelResult& result) {
   };
   if (result.up)
     json["up"] = numbers(*result.up);
-  if (result.sensor)
+  if (result.sensor) {
     json["sensor"] = numbers(*result.sensor);
+    json["sensor_known"] = result.sensor_known;
+  }
   json["region"] = boxToJson(report.region);
   json["region_points"] = report.region_points;
   json["voxels"] = {report.voxels.divisions.x(),
@@ -90,14 +94,15 @@ std::string reportToJson(const ModelResult& result) {
       const TableModel& t = *report.view.table;
       json["table"] = {t.normal.x(), t.normal.y(), t.normal.z(), t.offset};
     }
-    json["notes"] = report.view.notes;
   }
+  json["notes"] = report.notes;
   if (result.taper)
     json["taper"] = {
         {"margin", result.taper->margin},
         {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
-  return nlohmann::ordered_json{{"report", json}}.dump();
+  const Eigen::Vector3d size = sizeOf(result).sides;
+  return nlohmann::ordered_json{{"size", numbers(size)}, {"report", json}}.dump();
 }
 
 } // namespace pcl_sq::app

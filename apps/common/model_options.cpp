@@ -3,40 +3,11 @@
 
 #include "app.h"
 #include "files.h"
-
-#include <map>
+#include "value_checks.h"
 
 namespace pcl_sq::app {
 
 namespace {
-
-/** \brief An option that takes one of some names. */
-template <typename Enum>
-CLI::Option* addChoice(CLI::App& cli,
-                       const std::string& name,
-                       Enum& value,
-                       const std::map<std::string, Enum>& names,
-                       const std::string& description) {
-  std::string list, current;
-  for (const auto& [key, choice] : names) {
-    list += (list.empty() ? "" : "|") + key;
-    if (choice == value)
-      current = key;
-  }
-  return cli
-      .add_option_function<std::string>(
-          name,
-          [&value, names](const std::string& key) { value = names.at(key); },
-          description)
-      ->type_name(list)
-      ->default_str(current)
-      ->check(CLI::Validator(
-          [names, list](const std::string& key) {
-            return names.count(key) ? std::string()
-                                    : "'" + key + "' is none of " + list;
-          },
-          ""));
-}
 
 void addFitOptions(CLI::App& cli, EstimationOptions& options) {
   addChoice<Decomposition>(
@@ -52,8 +23,7 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       "--fit",
       options.fit,
       {{"paper", FitMode::PAPER}, {"full", FitMode::FULL}},
-      "The paper's three parameters, or all eleven; full is the default of "
-      "--decomposition none");
+      "The paper's three parameters, the default of its chain, or all eleven");
   PaperFitOptions& fit = options.paper_fit;
   addChoice<Cost>(
       cli,
@@ -88,6 +58,9 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       "A part's points keep their front, or the centre is the region's or theirs");
 }
 
+/** \brief Voxels along a side beyond which none of any sensor holds two points. */
+constexpr int MAX_DIVISIONS = 1000;
+
 void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
   VoxelOptions& voxels = options.voxels;
   cli.add_option_function<std::vector<double>>(
@@ -100,7 +73,8 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
       ->expected(3)
       ->delimiter(',')
       ->type_name("X,Y,Z")
-      ->default_str("5,5,10");
+      ->default_str("5,5,10")
+      ->check(positiveNumber(100.0));
   cli.add_option_function<double>(
          "--voxel-size",
          [&voxels](double size) {
@@ -109,7 +83,7 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
          },
          "Voxel side [m], divisions kept within 10 and 31")
       ->type_name("M")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   cli.add_option_function<std::vector<int>>(
          "--divisions",
          [&voxels](const std::vector<int>& n) {
@@ -119,7 +93,8 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
          "Numbers of voxels themselves")
       ->expected(3)
       ->delimiter(',')
-      ->type_name("NX,NY,NZ");
+      ->type_name("NX,NY,NZ")
+      ->check(wholeNumber(1, MAX_DIVISIONS));
   addChoice<PrismRun>(
       cli,
       "--run",
@@ -135,7 +110,8 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
 
 void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.set_config("--config", "", "TOML file with options; the command line wins")
-      ->check(CLI::ExistingFile);
+      ->type_name("FILE")
+      ->check(existingFile());
   cli.add_option("-o,--output", options.output, "Model as JSON; -: standard output")
       ->type_name("FILE");
   addViewOptions(cli, options);
@@ -143,15 +119,19 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
       ->expected(4)
       ->delimiter(',')
-      ->type_name("X,Y,W,H");
+      ->type_name("X,Y,W,H")
+      ->check(wholeNumber(-MAX_PIXELS, MAX_PIXELS));
   cli.add_option(
          "--box", options.box, "Object's box: minx,miny,minz,maxx,maxy,maxz [m]")
       ->expected(6)
       ->delimiter(',')
-      ->type_name("BOX");
-  cli.add_flag("--remove-plane",
-               options.remove_plane,
-               "Keep the largest cluster above the largest plane");
+      ->type_name("BOX")
+      ->check(number(-FARTHEST, FARTHEST));
+  cli.add_flag(
+      "--remove-plane",
+      options.remove_plane,
+      "Take the largest thing that stands on a plane of the cloud; with --roi or "
+      "--box the thing in it");
   addPrismOptions(cli, options.estimation);
   cli.add_option("--grasp-points",
                  options.grasp_points,
@@ -160,9 +140,10 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.add_option("--grasp-threshold",
                  options.estimation.grasp_threshold,
                  "Largest |F^(e1/2) - 1| of such a point")
+      ->check(positiveNumber(1.0))
       ->capture_default_str();
   cli.add_option("--threads", options.threads, "Number of threads, 0: all cores")
-      ->check(CLI::Range(0, 1024))
+      ->check(wholeNumber(0, 1024))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   cli.add_option("--mesh",
@@ -177,12 +158,13 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
 void checkModelOptions(const ModelOptions& options) {
   std::string why;
   if (!options.estimation.isValid(&why))
-    throw UsageError(why);
+    throw UsageError(why + ".");
   if (!options.roi.empty() && (options.roi[2] <= 0 || options.roi[3] <= 0))
-    throw UsageError("--roi needs a positive width and height");
+    throw UsageError("--roi wants a width and a height above 0: X,Y,W,H.");
   for (std::size_t k = 0; k + 3 < options.box.size(); ++k)
     if (!(options.box[k] < options.box[k + 3]))
-      throw UsageError("--box needs each minimum below its maximum");
+      throw UsageError("--box wants each minimum below its maximum: "
+                       "minx,miny,minz,maxx,maxy,maxz.");
   checkTaper(options);
   claimOutput("--output", options.output);
   claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});

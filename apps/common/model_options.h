@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud_io.h"
+#include "frame_options.h"
 
 #include "pcl_sq/fit_tapered.h"
 #include "pcl_sq/model_io.h"
@@ -25,9 +26,7 @@ struct ModelOptions {
   bool remove_plane = false;
   std::string mask;               ///< PNG, or empty
   std::vector<double> intrinsics; ///< fx, fy, cx, cy [px], or empty
-  std::vector<double> viewpoint;  ///< x, y, z [m], or empty
-  std::vector<double> table;      ///< nx, ny, nz, d [m], or empty
-  TabletopOptions tabletop;
+  FrameOptions frame;
   bool taper = false; ///< where the points demand one
 
   std::string output; ///< model JSON
@@ -61,7 +60,8 @@ struct ModelResult {
   EstimationReport report;
   pcl::Indices object;                   ///< points that were given to the estimation
   std::optional<Eigen::Vector3d> up;     ///< normal of the table, where one is known
-  std::optional<Eigen::Vector3d> sensor; ///< camera's place, where one is known
+  std::optional<Eigen::Vector3d> sensor; ///< camera's place, known or guessed
+  bool sensor_known = false;             ///< and not guessed
   std::optional<TaperedFit> taper;       ///< with --taper and one superquadric
 };
 
@@ -81,8 +81,5 @@ bool addTaper(const LoadedCloud& input,
 void writeOutputs(const LoadedCloud& input,
                   const ModelResult& result,
                   const ModelOptions& options);
-
-/** \brief The result for people, on stdout. */
-void printSummary(const ModelResult& result);
 
 } // namespace pcl_sq::app

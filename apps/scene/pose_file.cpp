@@ -49,9 +49,9 @@ void readPose(const std::string& text,
   std::string content = text;
   const std::size_t colon = text.rfind(':');
   if (std::filesystem::exists(text, error))
-    content = readInput(text);
+    content = readFile(text);
   else if (colon != std::string::npos)
-    content = matrixText(readInput(text.substr(0, colon)), text.substr(colon + 1));
+    content = matrixText(readFile(text.substr(0, colon)), text.substr(colon + 1));
   const std::vector<double> n = numbersOf(content);
   if (n.size() != 16)
     throw Failure("a pose has 16 numbers (4 x 4, in rows), not " +

@@ -77,7 +77,7 @@ std::string toJson(const SceneTruth& t) {
 
 SceneTruth readTruth(const std::string& path) {
   try {
-    const Json json = Json::parse(readInput(path));
+    const Json json = Json::parse(readFile(path));
     if (json.at("schema") != "pcl_sq/truth" || json.at("version") != 1)
       throw Failure("'" + path + "' is not a truth file of version 1.");
     SceneTruth t;
@@ -116,8 +116,10 @@ SceneTruth readTruth(const std::string& path) {
     t.roi = {int(roi[0]), int(roi[1]), int(roi[2]), int(roi[3])};
     t.visible_pixels = json.at("visible_pixels").get<std::size_t>();
     return t;
-  } catch (const nlohmann::json::exception& e) {
-    throw Failure("'" + path + "' is not a truth file (" + e.what() + ").");
+  } catch (const nlohmann::json::exception&) {
+    throw Failure("'" + path +
+                  "' is not a truth file of pcl_sq_render: it is no JSON, or "
+                  "a member is missing or of another type.");
   }
 }
 

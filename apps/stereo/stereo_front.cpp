@@ -2,39 +2,66 @@
 #include "stereo_front.h"
 
 #include "app.h"
+#include "files.h"
+#include "image_file.h"
+#include "input_images.h"
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
+#include "value_checks.h"
 
 #include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
-#include <map>
 
 namespace pcl_sq::app {
 namespace {
 
-cv::Mat loadImage(const std::string& path, int flags = cv::IMREAD_COLOR) {
-  // OpenCV would add a warning of its own
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const cv::Mat image = cv::imread(path, flags);
-  if (image.empty())
-    throw Failure("cannot read the image '" + path +
-                  "'; check the name and the format.");
-  return image;
-}
-
-StereoResult loadDepth(const FrontOptions& o) {
+CameraIntrinsics givenCamera(const FrontOptions& o) {
   CameraIntrinsics camera;
   camera.fx = o.intrinsics[0];
   camera.fy = o.intrinsics[1];
   camera.cx = o.intrinsics[2];
   camera.cy = o.intrinsics[3];
-  const cv::Mat color = o.left.empty() ? cv::Mat() : loadImage(o.left);
-  return reprojectDepth(
-      loadImage(o.depth, cv::IMREAD_UNCHANGED), o.depth_unit, camera, color);
+  return camera;
+}
+
+StereoResult loadDepth(const FrontOptions& o, std::vector<std::string>& notes) {
+  const cv::Mat color =
+      o.left.empty() ? cv::Mat() : readImage(o.left, cv::IMREAD_COLOR);
+  double scale = o.depth_scale;
+  const cv::Mat depth = readDepth(o.depth, scale, notes);
+  return reprojectDepth(depth, scale, givenCamera(o), color);
+}
+
+StereoCalibration calibrationFor(const FrontOptions& o, const cv::Mat& image) {
+  if (o.calib.empty()) {
+    StereoIntrinsics pair;
+    static_cast<CameraIntrinsics&>(pair) = givenCamera(o);
+    pair.baseline = o.baseline;
+    return StereoCalibration::fromRectified(pair);
+  }
+  std::vector<CalibrationText> texts;
+  for (const std::string& file : o.calib)
+    texts.push_back({file, readFile(file)});
+  return StereoCalibration::fromText(texts, o.calib_unit, image.cols, image.rows);
+}
+
+StereoResult matchPair(const FrontOptions& o, FrontResult& r, StageTimer& timer) {
+  cv::Mat left, right;
+  timer.run("load", [&] {
+    readPair(o.left, o.right, left, right, r.notes);
+    return true;
+  });
+  StereoReprojector reprojector(calibrationFor(o, left));
+  reprojector.setOptions(o.stereo);
+  if (o.progress)
+    o.progress("match", 0.0);
+  StereoResult result = reprojector.compute(left, right);
+  const auto& notes = reprojector.getCalibration().getNotes();
+  r.notes.insert(r.notes.end(), notes.begin(), notes.end());
+  return result;
 }
 
 /** \brief The object in the image, by whatever hint there is. */
@@ -42,7 +69,7 @@ Segment
 findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
-    cv::Mat mask = loadImage(o.mask, cv::IMREAD_GRAYSCALE);
+    const cv::Mat mask = readImage(o.mask, cv::IMREAD_GRAYSCALE);
     if (mask.cols != static_cast<int>(s.cloud->width) ||
         mask.rows != static_cast<int>(s.cloud->height))
       throw Failure("the mask and the image differ in size; give a mask of " +
@@ -129,28 +156,40 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("right", o.right, "Right image")->type_name("RIGHT");
   cli.add_option("--calib",
                  o.calib,
-                 "OpenCV YAML/XML, raw or rectified (two files: intrinsics and "
-                 "extrinsics), or Middlebury calib.txt")
+                 "Calibration: OpenCV's YAML, XML or JSON, ROS camera_info (left and "
+                 "right), Kalibr's camchain, ZED's SN*.conf, Middlebury's calib.txt; "
+                 "one file or two")
       ->expected(1, 2)
       ->type_name("FILE");
   cli.add_option("--calib-unit", o.calib_unit, "Length of its unit [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber(1000.0))
       ->capture_default_str();
-  const std::map<std::string, StereoMatcher> matchers{{"bm", StereoMatcher::BM},
-                                                      {"sgbm", StereoMatcher::SGBM}};
+  cli.add_option("--baseline",
+                 o.baseline,
+                 "Distance of the cameras of a rectified pair [m], with --intrinsics "
+                 "instead of --calib")
+      ->check(positiveNumber(1000.0));
+  addChoice<StereoMatcher>(cli,
+                           "--matcher",
+                           o.stereo.matcher,
+                           {{"bm", StereoMatcher::BM}, {"sgbm", StereoMatcher::SGBM}},
+                           "Block matching or semi-global");
   cli.add_option(
-         "--matcher", o.stereo.matcher, "Block matching or semi-global: bm|sgbm")
-      ->transform(CLI::CheckedTransformer(matchers).description(""))
-      ->type_name("NAME")
-      ->default_str("bm");
-  cli.add_option(
-      "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto");
-  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found");
-  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found");
+         "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto")
+      ->check(wholeNumber(0, 51))
+      ->capture_default_str();
+  cli.add_option("--min-depth", o.stereo.min_depth, "Nearest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
+  cli.add_option("--max-depth", o.stereo.max_depth, "Farthest depth [m]; 0: found")
+      ->check(number(0.0, FARTHEST))
+      ->capture_default_str();
   cli.add_option("--uniqueness", o.stereo.uniqueness, "Margin of the best match [%]")
+      ->check(wholeNumber(0, 100))
       ->capture_default_str();
   cli.add_option(
          "--left-right", o.stereo.left_right_tolerance, "Check [px]; negative: none")
+      ->check(wholeNumber(-1, 100))
       ->capture_default_str();
   cli.add_flag_function(
       "--refine,!--no-refine",
@@ -158,28 +197,30 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
       "Least-squares matching with slanted windows after the matcher; default but in "
       "the paper's mode");
   cli.add_flag("--wls", o.stereo.wls, "Edge-aware smoothing of the disparities");
-  cli.add_option("--depth", o.depth, "Depth image (16-bit PNG) instead of a right one")
+  cli.add_option("--depth",
+                 o.depth,
+                 "Depth image (16-bit PNG, float TIFF or PFM) instead of a right one")
       ->type_name("FILE");
-  cli.add_option("--depth-unit", o.depth_unit, "Length of one step of it [m]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  cli.add_option("--depth-scale,--depth-unit",
+                 o.depth_scale,
+                 "Length of one step of it [m]; default: .001 of 16 bits, 1 of floats")
+      ->check(positiveNumber(1000.0));
   cli.add_option(
          "--segment",
          o.segment,
          "How the object's outline is found; none: only the box of --roi counts")
-      ->type_name("none|color|grabcut")
       ->default_str("grabcut")
-      ->check(CLI::IsMember({"none", "color", "grabcut"}));
-  auto* click = cli.add_option("--click", o.click, "Hint: a pixel of the object")
-                    ->expected(2)
-                    ->delimiter(',')
-                    ->type_name("X,Y");
+      ->check(oneOf({"none", "color", "grabcut"}));
+  cli.add_option("--click", o.click, "Hint: a pixel of the object")
+      ->expected(2)
+      ->delimiter(',')
+      ->type_name("X,Y")
+      ->check(wholeNumber(0, MAX_PIXELS));
   cli.add_option("--color", o.color, "Hint: the object's colour, 0 to 255 each")
       ->expected(3)
       ->delimiter(',')
-      ->check(CLI::Range(0, 255))
-      ->type_name("R,G,B")
-      ->excludes(click);
+      ->check(wholeNumber(0, 255))
+      ->type_name("R,G,B");
   cli.add_flag("--border-filter",
                o.border_filter,
                "Texture-based filter of the object's rim (section IV)");
@@ -192,8 +233,13 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
   if (o.depth.empty()) {
     if (o.left.empty() || o.right.empty())
       throw UsageError("give a left and a right image (or --depth and --intrinsics).");
-    if (o.calib.empty())
-      throw UsageError("--calib is missing; give the calibration of the pair.");
+    if (o.calib.empty() && (o.baseline <= 0.0 || o.intrinsics.size() != 4))
+      throw UsageError("--calib is missing; give the calibration of the pair, or "
+                       "--intrinsics and --baseline of a rectified one.");
+    if (!o.calib.empty() && (o.baseline > 0.0 || !o.intrinsics.empty()))
+      throw UsageError(
+          "the calibration file says the baseline and the intrinsics; give "
+          "either --calib or --intrinsics and --baseline.");
   } else {
     if (!o.right.empty())
       throw UsageError("give either a right image or --depth, not both.");
@@ -215,15 +261,11 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
 
 FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   FrontResult r;
-  StageTimer timer(r.timings_ms);
-  if (o.depth.empty()) {
-    const auto images = timer.run(
-        "load", [&] { return std::make_pair(loadImage(o.left), loadImage(o.right)); });
-    StereoReprojector reprojector(StereoCalibration::load(o.calib, o.calib_unit));
-    reprojector.setOptions(o.stereo);
-    r.stereo = reprojector.compute(images.first, images.second);
-  } else
-    r.stereo = timer.run("load", [&] { return loadDepth(o); });
+  StageTimer timer(r.timings_ms, o.progress);
+  if (o.depth.empty())
+    r.stereo = matchPair(o, r, timer);
+  else
+    r.stereo = timer.run("load", [&] { return loadDepth(o, r.notes); });
   r.timings_ms.insert(
       r.timings_ms.end(), r.stereo.timings_ms.begin(), r.stereo.timings_ms.end());
 
@@ -238,6 +280,7 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
   else {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
     r.rect = r.segment.rect;
+    r.notes.insert(r.notes.end(), r.segment.notes.begin(), r.segment.notes.end());
     if (!r.segment.outlined) // a box has no outline that the object could touch
       r.segment.mask.release();
   }

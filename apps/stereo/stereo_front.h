@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pcl_sq/depth_histogram.h"
+#include "pcl_sq/progress.h"
 #include "pcl_sq/roi.h"
 #include "pcl_sq/stereo/object_segmenter.h"
 #include "pcl_sq/stereo/stereo_reprojector.h"
@@ -17,15 +18,17 @@ struct FrontOptions {
   std::string left, right;        ///< images; \a right is empty with \a depth
   std::vector<std::string> calib; ///< one or two files
   double calib_unit = 1.0;        ///< of the calibration's lengths [m]
+  double baseline = 0.0;          ///< with \a intrinsics instead of \a calib [m]
   StereoOptions stereo;
   std::optional<bool> refine;     ///< of the disparities; not given: in the best mode
   std::string depth;              ///< depth image instead of a right one
-  double depth_unit = 0.001;      ///< of its steps [m]
-  std::vector<double> intrinsics; ///< fx, fy, cx, cy of the depth image
+  double depth_scale = 0.0;       ///< length of its steps [m]; 0: by its kind
+  std::vector<double> intrinsics; ///< fx, fy, cx, cy of the images
   std::string segment;            ///< "", "none", "color" or "grabcut"
   std::vector<int> click, color;  ///< hints: pixel; red, green, blue
   std::string mask;               ///< mask image instead of a segmentation
   bool border_filter = false;
+  ProgressCallback progress; ///< is told the stages
 };
 
 /** \brief The object's points and where they come from. */
@@ -34,8 +37,9 @@ struct FrontResult {
   Segment segment; ///< its mask is empty if only a box is known
   PixelRect rect;  ///< 2D query
   DepthHistogram histogram;
-  RoiBox region;       ///< 3D query
-  pcl::Indices object; ///< points of the object in the stereo cloud
+  RoiBox region;                  ///< 3D query
+  pcl::Indices object;            ///< points of the object in the stereo cloud
+  std::vector<std::string> notes; ///< what was assumed of the files, in sentences
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 

@@ -108,6 +108,5 @@ private:
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/adaptive_voxel_grid.hpp"
-#endif

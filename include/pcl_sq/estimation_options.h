@@ -4,6 +4,7 @@
 #include "pcl_sq/fit_object.h"
 #include "pcl_sq/fit_options.h"
 #include "pcl_sq/prism.h"
+#include "pcl_sq/progress.h"
 
 namespace pcl_sq {
 
@@ -37,13 +38,13 @@ enum class CenterRule {
   MEAN ///< the mean of the part's points
 };
 
-/** \brief Settings of ObjectSurfaceEstimation. */
+/** \brief Settings of ObjectSurfaceEstimation; as they stand here, the best mode. */
 struct PCL_SQ_EXPORTS EstimationOptions {
-  Decomposition decomposition = Decomposition::PRISMS;
+  Decomposition decomposition = Decomposition::PARTS;
   VoxelOptions voxels;
   PrismOptions prisms;
   bool exclusive_points = false; ///< whether a point counts for its smallest prism only
-  FitMode fit = FitMode::PAPER;
+  FitMode fit = FitMode::FULL;   ///< for Decomposition::PRISMS and NONE
   PcaScope pca = PcaScope::OBJECT;
   CenterRule center = CenterRule::FRONT;
   PaperFitOptions paper_fit;   ///< for FitMode::PAPER
@@ -51,11 +52,12 @@ struct PCL_SQ_EXPORTS EstimationOptions {
   ViewOptions view;            ///< for Decomposition::PARTS: what is known of the view
   ObjectFitOptions object_fit; ///< for Decomposition::PARTS
   double grasp_threshold = 0.05; ///< largest |G - 1| of a grasp point, (0, 1]
+  ProgressCallback progress;     ///< is told the stages of the work (optional)
 
   /** \brief The paper's chain, as it stands (II-B, III): prisms, e1, e2 and a3. */
   static EstimationOptions paper();
   /** \brief The best this library can do with one view: points, outline and table,
-   * shapes and number of parts chosen by the data. */
+   * shapes and number of parts chosen by the data. The same as EstimationOptions{}. */
   static EstimationOptions best();
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is

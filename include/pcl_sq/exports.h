@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/config.h"
+
 /** \brief Marks the symbols that the shared libraries export; all others stay hidden.
  */
 #if defined(_WIN32) && defined(PCL_SQ_BUILDING)

@@ -28,8 +28,9 @@ readFile(const std::string& path, std::string& bytes, std::string* why = nullptr
  * \param[out] why the reason of a failure, such as a full disk or a pipe without a
  * reader, a sentence without its full stop (optional)
  * \return whether every byte was taken */
-[[nodiscard]] PCL_SQ_EXPORTS bool
-writeFile(const std::string& path, const std::string& bytes, std::string* why = nullptr);
+[[nodiscard]] PCL_SQ_EXPORTS bool writeFile(const std::string& path,
+                                            const std::string& bytes,
+                                            std::string* why = nullptr);
 
 /** \brief Whether writeFile() may write there: asked before long work is begun.
  * \param[out] why as of writeFile() (optional) */
@@ -38,7 +39,8 @@ writeFile(const std::string& path, const std::string& bytes, std::string* why = 
 
 /** \brief Whether two names are those of one file, pipe or standard output, however
  * they are spelt. Two names of a device, such as /dev/null, do not count. */
-[[nodiscard]] PCL_SQ_EXPORTS bool isSameFile(const std::string& a, const std::string& b);
+[[nodiscard]] PCL_SQ_EXPORTS bool isSameFile(const std::string& a,
+                                             const std::string& b);
 
 /** \brief Whether writeFile() writes to the program's standard output. */
 [[nodiscard]] PCL_SQ_EXPORTS bool isStandardOutput(const std::string& path);

@@ -95,6 +95,5 @@ PCL_SQ_EXPORTS double surfaceNoise(const MultiSuperquadric& model,
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/grasp_point_filter.hpp"
-#endif

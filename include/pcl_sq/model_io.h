@@ -4,6 +4,7 @@
 #include "pcl_sq/tapered_union.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,8 @@ struct PartStatistics {
 };
 
 /** \brief The contents of a model file (schema "pcl_sq/model", version 1; version 2
- * where a part is tapered, so that no reader of version 1 takes it for untapered). */
+ * where a part is tapered, so that no reader of version 1 takes it for untapered;
+ * version 3 where the table is known). */
 struct PCL_SQ_EXPORTS ModelFile {
   MultiSuperquadric model;
   std::vector<PartStatistics> statistics; ///< one per part, or empty
@@ -27,6 +29,9 @@ struct PCL_SQ_EXPORTS ModelFile {
   std::vector<std::array<double, 2>> tapers;
   /** \brief The model with its tapers. */
   TaperedUnion tapered() const;
+  /** \brief The table it stands on, nx, ny, nz, d of n . p + d = 0 [m], n of unit
+   * length and away from the ground; where one was found. */
+  std::optional<std::array<double, 4>> table;
   std::string frame;               ///< name of the coordinate frame
   double distortion = 0.0;         ///< D of the union, Eq. (7) [m^1.5]
   double rms_distance = 0.0;       ///< of the union [m]

@@ -8,6 +8,7 @@
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,10 @@ struct PartReport {
 /** \brief What an estimation did, stage by stage. */
 struct EstimationReport {
   std::string failure; ///< why there is no model, a sentence; empty on success
-  RoiBox region;       ///< box that was divided [m]
+  /** \brief Fall-backs and what to do about them, one sentence each, those of the view
+   * among them. */
+  std::vector<std::string> notes;
+  RoiBox region;                 ///< box that was divided [m]
   std::size_t region_points = 0; ///< finite points in it
   VoxelLayout voxels;            ///< empty without a decomposition
   std::vector<Prism> prisms;     ///< empty without a decomposition
@@ -54,6 +58,24 @@ struct EstimationReport {
  *   std::cout << model.size() << " superquadrics\n";
  * \endcode
  * The camera looks along z with y down, as in every image-based cloud.
+ *
+ * Which points are the object is said in one of these ways; the first three hold for
+ * every decomposition, the search alone for Decomposition::PARTS, the best mode:
+ *
+ * | said with | the object is |
+ * |---|---|
+ * | setIndices() | exactly these points, also where they are all of the cloud |
+ * | ViewOptions::mask | exactly the pixels under the mask (organized clouds) |
+ * | setRegion() | looked for in this box: the thing that it was drawn around |
+ * | both setIndices() and setRegion() | looked for among those of the points in the box
+ * | | nothing | looked for in the whole view: the largest thing that stands on a table
+ * |
+ *
+ * Where there is nothing to search in, all points that are left are the object: in
+ * clouds that are no image (height 1), in clouds without a table, and in the paper's
+ * chain. A whole organized cloud that is the object is said with the indices of all its
+ * points. pcl::IndicesPtr of TabletopSegmentation, PCL's clusters and the like go to
+ * setIndices().
  * \tparam PointT point type with x, y, z
  * \ingroup pcl_sq
  */
@@ -67,14 +89,14 @@ public:
   void setOptions(const EstimationOptions& options);
   const EstimationOptions& getOptions() const { return options_; }
 
-  /** \brief Restricts the work to a box [m]; without it all finite points count. */
-  void setRegion(const RoiBox& region) {
-    region_ = region;
-    has_region_ = true;
-  }
-  void unsetRegion() { has_region_ = false; }
-  bool hasRegion() const { return has_region_; }
-  const RoiBox& getRegion() const { return region_; }
+  /** \brief Looks for the object in a box of the cloud's frame [m]; see above. */
+  void setRegion(const RoiBox& region) { region_ = region; }
+  /** \brief Takes the box back. */
+  void unsetRegion() { region_.reset(); }
+  /** \brief Whether a box is set. */
+  bool hasRegion() const { return region_.has_value(); }
+  /** \brief The box set. \pre hasRegion() */
+  const RoiBox& getRegion() const { return *region_; }
 
   /** \brief Number of threads for the fits, 0 for all cores. The result does not depend
    * on it. */
@@ -92,31 +114,19 @@ public:
 protected:
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
+  using pcl::PCLBase<PointT>::use_indices_;
+  using pcl::PCLBase<PointT>::fake_indices_;
   using pcl::PCLBase<PointT>::initCompute;
   using pcl::PCLBase<PointT>::deinitCompute;
 
 private:
-  bool fail(const std::string& sentence);
-  bool cropRegion(pcl::IndicesPtr& object);
-  bool decompose(const pcl::IndicesPtr& object,
-                 std::vector<pcl::PointIndices>& clusters);
-  bool observe(pcl::IndicesPtr& object);
-  bool fitObject(MultiSuperquadric& model);
-  bool fitParts(const pcl::IndicesPtr& object,
-                std::vector<pcl::PointIndices>& clusters,
-                MultiSuperquadric& model);
-  void evaluate(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
-  void findGraspPoints(const pcl::IndicesPtr& object, const MultiSuperquadric& model);
-
   EstimationOptions options_;
-  RoiBox region_;
-  bool has_region_ = false;
+  std::optional<RoiBox> region_;
   unsigned int threads_ = 0;
   EstimationReport report_;
 };
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/object_surface_estimation.hpp"
-#endif

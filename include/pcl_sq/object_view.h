@@ -28,6 +28,9 @@ struct PCL_SQ_EXPORTS ViewOptions {
   CellMask mask;
   /** \brief The camera's place in the cloud's frame [m]. */
   std::optional<Eigen::Vector3d> viewpoint;
+  /** \brief Direction away from the ground in the cloud's frame, of any length: a table
+   * lies across it. Without it an image's top is taken to be up. */
+  std::optional<Eigen::Vector3d> up;
   std::optional<TableModel> table; ///< without it a table is looked for
   bool find_table = true;          ///< whether one is looked for
   /** \brief Whether the points given as the object are all those of a box around it,
@@ -72,8 +75,17 @@ struct PCL_SQ_EXPORTS ObservedObject {
   std::optional<TableModel> table;
   double effective_points = 0.0; ///< independent ones among the points
   double depth = 1.0;            ///< of the object [m]
-  double extent = 0.0;           ///< half diagonal of the points' box [m]
-  CellMask pixels;               ///< the object's, of the real or virtual image
+  /** \brief Points nearer to the table than this may be missing: they cannot be told
+   * from the table's own [m]. */
+  double foot = 0.0;
+  /** \brief Whether all that lies between the object's lowest points and the table is
+   * hidden, so that the object may as well reach down to it. */
+  bool hidden_below = false;
+  /** \brief Whether the camera's place is known, told or seen in the cloud; where it
+   * was guessed, nobody knows which sides are unseen. */
+  bool viewpoint_known = false;
+  double extent = 0.0; ///< half diagonal of the points' box [m]
+  CellMask pixels;     ///< the object's, of the real or virtual image
   /** \brief Pixels around the object through which the background is seen: no part of
    * the object crosses their rays. A coarse grid of them. */
   std::vector<Eigen::Vector2d> free_pixels;
@@ -110,6 +122,17 @@ struct PCL_SQ_EXPORTS ObservedObject {
  * \return false if the cloud is no pinhole image */
 [[nodiscard]] PCL_SQ_EXPORTS bool
 findIntrinsics(const CloudPoints& points, int width, int height, PinholeCamera& camera);
+
+/** \brief The camera of an organized cloud in any frame: findIntrinsics() where the
+ * cloud is in its camera's, else intrinsics and pose from the rays of its pixels.
+ * \param[in] viewpoint the camera's place, where it is known [m]
+ * \return false if the cloud is no pinhole image, or too flat to tell */
+[[nodiscard]] PCL_SQ_EXPORTS bool
+findCamera(const CloudPoints& points,
+           int width,
+           int height,
+           const std::optional<Eigen::Vector3d>& viewpoint,
+           PinholeCamera& camera);
 
 /** \brief Finds the object that stands on a table in an organized cloud: pixels above
  * the table that hang together without a jump in depth, the largest such region that

@@ -5,6 +5,9 @@
 
 #include <pcl/pcl_base.h>
 
+#include <string>
+#include <vector>
+
 namespace pcl_sq {
 
 /** \brief Splits an object's points by rectangular prisms of connected voxels (paper,
@@ -48,9 +51,6 @@ protected:
   using pcl::PCLBase<PointT>::deinitCompute;
 
 private:
-  void distribute(std::vector<pcl::PointIndices>& clusters) const;
-  bool dropSmallest(const std::vector<pcl::PointIndices>& clusters);
-
   VoxelLayout layout_;
   PrismOptions options_;
   bool exclusive_ = false;
@@ -59,6 +59,5 @@ private:
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/prism_segmentation.hpp"
-#endif

@@ -46,6 +46,5 @@ protected:
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/roi_crop.hpp"
-#endif

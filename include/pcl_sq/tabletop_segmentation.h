@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/exports.h"
+#include "pcl_sq/object_view.h"
 
 #include <pcl/pcl_base.h>
-
-#include <Eigen/Core>
 
 #include <string>
 #include <vector>
@@ -23,21 +21,29 @@ struct TablePlane {
 
 /** \brief Settings of TabletopSegmentation. */
 struct PCL_SQ_EXPORTS TabletopOptions {
-  /** \brief Points nearer to the plane than this belong to it [m]; 0: 0.5 % of the
-   * cloud's extent. */
+  /** \brief Points nearer to the plane than this belong to it [m]; 0: from the points'
+   * noise. */
   double plane_distance = 0.0;
-  /** \brief Gap that separates two objects [m]; 0: 1 % of the cloud's extent. */
+  /** \brief Gap that separates two objects [m]; 0: from the points' spacing, in an
+   * image from the depth. */
   double cluster_gap = 0.0;
-  int max_iterations = 500; ///< of RANSAC, [1, 100000]
+  /** \brief The camera's place in the cloud's frame [m]; without it an image tells, or
+   * the cloud's sensor_origin_ where that is not zero. */
+  std::optional<Eigen::Vector3d> viewpoint;
+  /** \brief Direction away from the ground in the cloud's frame; the table lies across
+   * it. */
+  std::optional<Eigen::Vector3d> up;
+  std::optional<TableModel> table; ///< the table, where it is known
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */
   [[nodiscard]] bool isValid(std::string* why = nullptr) const;
 };
 
-/** \brief Finds the object that stands on a table: the largest plane of the cloud, then
- * the largest connected cluster above it, within the plane's outline. \tparam PointT
- * point type with x, y, z \ingroup pcl_sq
+/** \brief Finds the object that stands on a table: the plane that things stand on,
+ * which need not be the largest one, and the largest thing on it. Organized clouds are
+ * looked at as images in their camera's frame, whatever frame they are in. \tparam
+ * PointT point type with x, y, z \ingroup pcl_sq
  */
 template <typename PointT>
 class TabletopSegmentation : public pcl::PCLBase<PointT> {
@@ -58,7 +64,9 @@ public:
   [[nodiscard]] bool segment(pcl::Indices& object);
 
   /** \brief The plane of the last successful segment(). */
-  const TablePlane& getPlane() const { return plane_; }
+  TablePlane getPlane() const { return {table_.normal, table_.offset}; }
+  /** \brief The same with its noise. */
+  const TableModel& getTable() const { return table_; }
   /** \brief Why the last segment() failed, a sentence; empty if it did not. */
   const std::string& getFailure() const { return failure_; }
 
@@ -71,27 +79,28 @@ protected:
 private:
   TabletopOptions options_;
   pcl::IndicesConstPtr candidates_;
-  TablePlane plane_;
+  TableModel table_;
   std::string failure_;
 };
 
 /** \brief The algorithm of TabletopSegmentation on bare points.
- * \param[in] points 3 x N; non-finite columns are left out
- * \param[in] viewpoint the camera's place [m]
- * \param[in] candidates whether a column may belong to the object; empty: all may
- * \param[out] object columns of the object; empty on failure
- * \param[out] why the reason of a failure as a sentence (optional) */
+ * \param[in] points 3 x (width height), row by row for an organized cloud; non-finite
+ * columns are left out \param[in] width, height of the organized cloud; height 1: a
+ * list \param[in] candidates whether a column may belong to the object; empty: all may.
+ * Of an organized cloud those of a box around the thing that is meant \param[out]
+ * object columns of the object, ascending; empty on failure \param[out] why the reason
+ * of a failure as a sentence (optional) */
 [[nodiscard]] PCL_SQ_EXPORTS bool
-findTabletopObject(const Eigen::Matrix3Xf& points,
-                   const Eigen::Vector3f& viewpoint,
+findTabletopObject(const CloudPoints& points,
+                   int width,
+                   int height,
                    const std::vector<bool>& candidates,
                    const TabletopOptions& options,
-                   TablePlane& plane,
+                   TableModel& table,
                    std::vector<int>& object,
                    std::string* why = nullptr);
 
 } // namespace pcl_sq
 
-#ifdef PCL_NO_PRECOMPILE
+// always: any point type links, PCL's or the user's own
 #include "pcl_sq/impl/tabletop_segmentation.hpp"
-#endif

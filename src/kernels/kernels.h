@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private. Inner loops of every fit, on plain float arrays: no Eigen and no PCL type is
-// seen by the files that are compiled for wide registers.
+// seen by the files that are compiled for wide registers, nor a public header, which
+// refuses them.
 #pragma once
-
-#include "pcl_sq/exports.h"
 
 #include <cstddef>
 
@@ -93,8 +92,8 @@ struct Kernels {
 enum class Isa { PORTABLE, SSE2, AVX2, AVX512 };
 
 /** \brief The loops for one instruction set; nullptr where this machine lacks it. */
-PCL_SQ_EXPORTS const Kernels* kernelsFor(Isa isa);
+[[gnu::visibility("default")]] const Kernels* kernelsFor(Isa isa);
 /** \brief The widest loops of this machine. */
-PCL_SQ_EXPORTS const Kernels& kernels();
+[[gnu::visibility("default")]] const Kernels& kernels();
 
 } // namespace pcl_sq::kernels

@@ -132,15 +132,18 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
     if (coverage(mask, likely) < PIECE)
       mask = cut(depth_labels);
   }
+  std::vector<std::string> notes;
   const bool told = cv::boundingRect(mask).area() >= 0.4 * inside.area();
   if (!told) {
-    PCL_WARN(
-        "[pcl_sq::ObjectSegmenter::segmentBox] colours do not tell the object from "
-        "its surroundings; the whole box is used.\n");
+    notes.emplace_back("colours do not tell the object from its surroundings, so the "
+                       "whole box is used without an outline; a mask of the object "
+                       "gives a better model");
+    PCL_WARN("[pcl_sq::ObjectSegmenter::segmentBox] %s.\n", notes.front().c_str());
     mask(inside).setTo(255);
   }
   const bool found = finish("segmentBox", mask, segment);
   segment.outlined = told;
+  segment.notes = notes;
   return found;
 }
 

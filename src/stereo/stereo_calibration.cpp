@@ -4,6 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq {
@@ -37,13 +38,22 @@ void checkRotation(const cv::Mat& m, const std::string& name) {
     raise("load", name + " is not a rotation; correct the calibration file.");
 }
 
-void checkCamera(const cv::Mat& m, const cv::Mat& d, const std::string& number) {
+void checkCamera(const cv::Mat& m,
+                 const cv::Mat& d,
+                 bool fisheye,
+                 const std::string& number) {
   checkShape(m, 3, 3, "M" + number);
   if (m.at<double>(0, 0) <= 0.0 || m.at<double>(1, 1) <= 0.0)
     raise("load",
           "the focal length in M" + number +
               " must be positive; correct the calibration file.");
+  if (std::abs(m.at<double>(0, 1)) > 0.0)
+    raise("load", "M" + number + " has a skew of the pixels; calibrate without it.");
   const std::size_t n = d.total();
+  if (fisheye && n != 0 && n != 4)
+    raise("load",
+          "D" + number + " has " + std::to_string(n) +
+              " coefficients; the equidistant (fisheye) model has 4.");
   if (n != 0 && n != 4 && n != 5 && n != 8 && n != 12 && n != 14)
     raise("load",
           "D" + number + " has " + std::to_string(n) +
@@ -53,23 +63,67 @@ void checkCamera(const cv::Mat& m, const cv::Mat& d, const std::string& number) 
           "D" + number + " holds a number that is not finite; calibrate again.");
 }
 
-/** \brief Left camera and baseline of a rectified pair of projections. */
+/** \brief Left camera and baseline of a rectified pair of projections; the offset f B
+ * may stand in either of them. */
 StereoIntrinsics fromProjections(const cv::Mat& P1, const cv::Mat& P2) {
   checkShape(P1, 3, 4, "P1");
   checkShape(P2, 3, 4, "P2");
-  const double f = P2.at<double>(0, 0);
-  if (std::abs(P2.at<double>(1, 3)) > std::abs(P2.at<double>(0, 3)))
+  const auto entry = [](const cv::Mat& p, int i, int j) { return p.at<double>(i, j); };
+  if (!(entry(P1, 0, 0) > 0.0 && entry(P2, 0, 0) > 0.0))
+    raise("load",
+          "the focal lengths in P1 and P2 must be positive; correct the calibration.");
+  if (std::abs(entry(P2, 1, 3) - entry(P1, 1, 3)) >
+      std::abs(entry(P2, 0, 3) - entry(P1, 0, 3)))
     raise("load",
           "the cameras stand one above the other; turn the images by 90 degrees and "
           "calibrate again.");
+  // rows of a rectified pair agree to a pixel, or nothing would match
+  const double across = std::abs(entry(P1, 1, 2)) / entry(P1, 0, 0);
+  if (std::abs(entry(P1, 1, 2) - entry(P2, 1, 2)) > 1.0 ||
+      std::abs(entry(P1, 1, 1) - entry(P2, 1, 1)) * std::max(across, 0.5) > 1.0 ||
+      std::abs(entry(P1, 0, 0) - entry(P2, 0, 0)) * std::max(across, 0.5) > 1.0)
+    raise("load",
+          "P1 and P2 differ in focal length or row of the principal point, so they are "
+          "not those of a rectified pair; give the projections that the stereo "
+          "calibration computed, or M1, D1, M2, D2, R, T.");
   StereoIntrinsics k;
-  k.fx = P1.at<double>(0, 0);
-  k.fy = P1.at<double>(1, 1);
-  k.cx = P1.at<double>(0, 2);
-  k.cy = P1.at<double>(1, 2);
-  k.baseline = f == 0.0 ? 0.0 : -P2.at<double>(0, 3) / f;
-  k.doffs = P2.at<double>(0, 2) - k.cx;
+  k.fx = entry(P1, 0, 0);
+  k.fy = entry(P1, 1, 1);
+  k.cx = entry(P1, 0, 2);
+  k.cy = entry(P1, 1, 2);
+  k.baseline = (entry(P1, 0, 3) - entry(P2, 0, 3)) / entry(P2, 0, 0);
+  k.doffs = entry(P2, 0, 2) - k.cx;
   return k;
+}
+
+cv::Mat fourCoefficients(const cv::Mat& d) {
+  return d.empty() ? cv::Mat(cv::Mat::zeros(4, 1, CV_64F)) : d.reshape(1, 4);
+}
+
+/** \brief Rectification of a pair of fisheyes. */
+void rectifyFisheyes(RawStereoCameras& c, const cv::Size& size) {
+  cv::Mat Q;
+  cv::fisheye::stereoRectify(c.M1,
+                             fourCoefficients(c.D1),
+                             c.M2,
+                             fourCoefficients(c.D2),
+                             size,
+                             c.R,
+                             c.T,
+                             c.R1,
+                             c.R2,
+                             c.P1,
+                             c.P2,
+                             Q,
+                             cv::CALIB_ZERO_DISPARITY,
+                             size);
+}
+
+/** \brief Whether an image of one size is the other one scaled; sides are whole pixels.
+ */
+bool sameProportions(const cv::Size& a, const cv::Size& b) {
+  const double scale = static_cast<double>(b.width) / a.width;
+  return std::abs(a.height * scale - b.height) <= 1.0;
 }
 
 void checkIntrinsics(const StereoIntrinsics& intrinsics) {
@@ -88,8 +142,8 @@ StereoCalibration StereoCalibration::fromRectified(const StereoIntrinsics& intri
 }
 
 StereoCalibration StereoCalibration::fromRaw(const RawStereoCameras& cameras) {
-  checkCamera(cameras.M1, cameras.D1, "1");
-  checkCamera(cameras.M2, cameras.D2, "2");
+  checkCamera(cameras.M1, cameras.D1, cameras.fisheye, "1");
+  checkCamera(cameras.M2, cameras.D2, cameras.fisheye, "2");
   const bool has_rectification = !cameras.R1.empty() && !cameras.R2.empty() &&
                                  !cameras.P1.empty() && !cameras.P2.empty();
   StereoCalibration result;
@@ -138,11 +192,11 @@ void StereoCalibration::checkImages(const cv::Mat& left, const cv::Mat& right) c
               "; give two images of one size.");
   const int width = isRectified() ? intrinsics_.width : raw_.width;
   const int height = isRectified() ? intrinsics_.height : raw_.height;
-  if (width > 0 && height > 0 && (width != left.cols || height != left.rows))
+  if (width > 0 && height > 0 && !sameProportions({width, height}, left.size()))
     raise("rectify",
           "the calibration is for images of " + sizeText(width, height) +
               " px but these are " + sizeText(left.cols, left.rows) +
-              " px; use the calibration of this image size.");
+              " px, of other proportions; use the calibration of this image size.");
   // Without a size in the file the principal point tells: it is near the middle.
   const double cx = isRectified() ? intrinsics_.cx : raw_.M1.at<double>(0, 2);
   const double cy = isRectified() ? intrinsics_.cy : raw_.M1.at<double>(1, 2);
@@ -155,34 +209,81 @@ void StereoCalibration::checkImages(const cv::Mat& left, const cv::Mat& right) c
               " px; use the calibration of this image size.");
 }
 
+void StereoCalibration::scaleTo(const cv::Size& size) {
+  int& width = isRectified() ? intrinsics_.width : raw_.width;
+  int& height = isRectified() ? intrinsics_.height : raw_.height;
+  const bool unknown = width == 0 || height == 0;
+  if (!unknown && cv::Size(width, height) != size) {
+    const double scale = static_cast<double>(size.width) / width;
+    notes_.push_back("the calibration is for images of " + sizeText(width, height) +
+                     " px; it was scaled to images of " +
+                     sizeText(size.width, size.height) + " px");
+    // pixel centres lie on integers
+    const auto place = [scale](double c) { return (c + 0.5) * scale - 0.5; };
+    const auto camera = [&](cv::Mat& m) {
+      if (m.empty())
+        return;
+      cv::Mat scaled = m.clone();
+      scaled.rowRange(0, 2) *= scale;
+      for (const int row : {0, 1})
+        scaled.at<double>(row, 2) = place(m.at<double>(row, 2));
+      m = scaled;
+    };
+    for (cv::Mat* m : {&raw_.M1, &raw_.M2, &raw_.P1, &raw_.P2})
+      camera(*m);
+    intrinsics_.fx *= scale;
+    intrinsics_.fy *= scale;
+    intrinsics_.cx = place(intrinsics_.cx);
+    intrinsics_.cy = place(intrinsics_.cy);
+    intrinsics_.doffs *= scale;
+    for (cv::Mat& map : maps_)
+      map.release();
+  }
+  width = size.width;
+  height = size.height;
+}
+
 void StereoCalibration::prepareMaps(const cv::Size& size) {
   RawStereoCameras& c = raw_;
   if (c.R1.empty() || c.R2.empty() || c.P1.empty() || c.P2.empty()) {
-    cv::Mat Q;
-    // alpha 0: only pixels that both cameras see
-    cv::stereoRectify(c.M1,
-                      c.D1,
-                      c.M2,
-                      c.D2,
-                      size,
-                      c.R,
-                      c.T,
-                      c.R1,
-                      c.R2,
-                      c.P1,
-                      c.P2,
-                      Q,
-                      cv::CALIB_ZERO_DISPARITY,
-                      0.0);
+    if (c.fisheye)
+      rectifyFisheyes(c, size);
+    else {
+      cv::Mat Q;
+      // alpha 0: only pixels that both cameras see
+      cv::stereoRectify(c.M1,
+                        c.D1,
+                        c.M2,
+                        c.D2,
+                        size,
+                        c.R,
+                        c.T,
+                        c.R1,
+                        c.R2,
+                        c.P1,
+                        c.P2,
+                        Q,
+                        cv::CALIB_ZERO_DISPARITY,
+                        0.0);
+    }
   }
   intrinsics_ = fromProjections(c.P1, c.P2);
   intrinsics_.width = size.width;
   intrinsics_.height = size.height;
   checkIntrinsics(intrinsics_);
-  cv::initUndistortRectifyMap(
-      c.M1, c.D1, c.R1, c.P1, size, CV_32FC1, maps_[0], maps_[1]);
-  cv::initUndistortRectifyMap(
-      c.M2, c.D2, c.R2, c.P2, size, CV_32FC1, maps_[2], maps_[3]);
+  const auto makeMaps = [&](const cv::Mat& m,
+                            const cv::Mat& d,
+                            const cv::Mat& r,
+                            const cv::Mat& p,
+                            cv::Mat* maps) {
+    if (c.fisheye)
+      cv::fisheye::initUndistortRectifyMap(
+          m, fourCoefficients(d), r, p, size, CV_32FC1, maps[0], maps[1]);
+    else
+      cv::initUndistortRectifyMap(m, d, r, p, size, CV_32FC1, maps[0], maps[1]);
+  };
+  makeMaps(c.M1, c.D1, c.R1, c.P1, maps_);
+  makeMaps(c.M2, c.D2, c.R2, c.P2, maps_ + 2);
 }
 
 void StereoCalibration::rectify(const cv::Mat& left,
@@ -190,17 +291,22 @@ void StereoCalibration::rectify(const cv::Mat& left,
                                 cv::Mat& rectified_left,
                                 cv::Mat& rectified_right) {
   checkImages(left, right);
+  scaleTo(left.size());
   if (isRectified()) {
-    intrinsics_.width = left.cols;
-    intrinsics_.height = left.rows;
     rectified_left = left;
     rectified_right = right;
     return;
   }
-  if (maps_[0].size() != left.size())
-    prepareMaps(left.size());
-  cv::remap(left, rectified_left, maps_[0], maps_[1], cv::INTER_LINEAR);
-  cv::remap(right, rectified_right, maps_[2], maps_[3], cv::INTER_LINEAR);
+  try {
+    if (maps_[0].empty())
+      prepareMaps(left.size());
+    cv::remap(left, rectified_left, maps_[0], maps_[1], cv::INTER_LINEAR);
+    cv::remap(right, rectified_right, maps_[2], maps_[3], cv::INTER_LINEAR);
+  } catch (const cv::Exception&) {
+    raise("rectify",
+          "the calibration cannot be applied to images of " +
+              sizeText(left.cols, left.rows) + " px; calibrate again.");
+  }
 }
 
 } // namespace pcl_sq

@@ -22,10 +22,10 @@ bool StereoOptions::isValid(std::string* why) const {
   return require(block_size == 0 ||
                      (block_size >= 3 && block_size <= 51 && block_size % 2 == 1),
                  "block_size must be odd and 3 to 51, or 0") &&
-         require(std::isfinite(min_depth) && min_depth >= 0.0,
-                 "min_depth must be positive, or 0") &&
-         require(std::isfinite(max_depth) && max_depth >= 0.0,
-                 "max_depth must be positive, or 0") &&
+         require(min_depth == 0.0 || (min_depth >= 1e-3 && min_depth <= 1e6),
+                 "min_depth must lie in [0.001, 1e6] m, or be 0") &&
+         require(max_depth == 0.0 || (max_depth >= 1e-3 && max_depth <= 1e6),
+                 "max_depth must lie in [0.001, 1e6] m, or be 0") &&
          require(min_depth == 0.0 || max_depth == 0.0 || min_depth < max_depth,
                  "min_depth must be less than max_depth") &&
          require(left_right_tolerance <= 100, "left_right_tolerance must be <= 100") &&

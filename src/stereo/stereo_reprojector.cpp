@@ -4,6 +4,7 @@
 #include "stereo/matching.h"
 #include "stereo/refine_disparity.h"
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
 
@@ -15,6 +16,8 @@ namespace pcl_sq {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double DISPARITY_STEP = 1.0 / 16.0; ///< of OpenCV's matchers [px]
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -90,7 +93,16 @@ searchLimits(const StereoOptions& options, const StereoIntrinsics& k, int width)
                                               : width / 3.0 - std::min(0.0, k.doffs);
   const double low = options.max_depth > 0.0 ? k.disparity(options.max_depth)
                                              : std::max(-width / 3.0, -k.doffs);
-  return detail::rangeOf(low, std::min<double>(high, width - 1));
+  // a match lies in the other image, so no disparity is larger than the width
+  const double largest = width - 1;
+  if (low > largest)
+    raise("the farthest depth of " + std::to_string(options.max_depth) +
+          " m is nearer than this pair can see; give more than " +
+          std::to_string(k.depth(largest)) + " m.");
+  if (high < -largest)
+    raise("the nearest depth of " + std::to_string(options.min_depth) +
+          " m is beyond what this pair can see; give less, or check the calibration.");
+  return detail::rangeOf(std::max(low, -largest), std::min(high, largest));
 }
 
 } // namespace
@@ -118,9 +130,10 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     disparity = detail::matchPair(grey_left, grey_right, left, range, options_);
     if (options_.refine)
       detail::refineDisparity(grey_left, grey_right, disparity);
-    // d + doffs = 0 is infinitely far
+    // d + doffs = 0 is infinitely far; less than the matcher's step cannot be told from
+    // it
     disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
-                    disparity <= -intrinsics.doffs);
+                    disparity < DISPARITY_STEP - intrinsics.doffs);
     share = static_cast<double>(cv::countNonZero(disparity == disparity)) /
             static_cast<double>(disparity.total());
   }
@@ -152,6 +165,10 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
   start = Clock::now();
   try {
     result.disparity = computeDisparity(result.left, result.right, result.intrinsics);
+  } catch (const cv::Exception&) {
+    raise("images of " + std::to_string(left.cols) + " x " + std::to_string(left.rows) +
+          " px cannot be matched with these settings; give larger images or a smaller "
+          "block.");
   } catch (const Exception&) {
     // exchanged raw images do not even lie on the same lines; try the other maps
     cv::Mat other_left, other_right;

@@ -20,7 +20,8 @@ void appendVector(std::string& bytes, const Eigen::Vector3d& v) {
   for (const double coordinate : {v.x(), v.y(), v.z()}) {
     const auto single = static_cast<float>(coordinate);
     std::uint32_t number = 0;
-    static_assert(sizeof number == sizeof single, "the formats hold IEEE single precision");
+    static_assert(sizeof number == sizeof single,
+                  "the formats hold IEEE single precision");
     std::memcpy(&number, &single, sizeof number);
     appendNumber(bytes, number);
   }

@@ -9,8 +9,8 @@
 
 namespace pcl_sq {
 
-// The triangles' vertices exist in all of these. VTK writes the three formats into files
-// only and does not see that a disk is full.
+// The triangles' vertices exist in all of these. VTK writes the three formats into
+// files only and does not see that a disk is full.
 
 /** \brief The parts as one binary PLY file, single precision.
  * \param[in] colors one per part, or none: no colours */

@@ -41,11 +41,11 @@ void writePng(const std::string& path,
   const vtkUnsignedCharArray* bytes = writer->GetResult();
   std::string why = "the picture cannot be made into a PNG file; make it smaller";
   if (bytes == nullptr || writer->GetErrorCode() != 0 ||
-      !writeFile(path,
-                 std::string(reinterpret_cast<const char*>(
-                                 writer->GetResult()->GetPointer(0)),
-                             static_cast<std::size_t>(bytes->GetNumberOfValues())),
-                 &why))
+      !writeFile(
+          path,
+          std::string(reinterpret_cast<const char*>(writer->GetResult()->GetPointer(0)),
+                      static_cast<std::size_t>(bytes->GetNumberOfValues())),
+          &why))
     throw Exception("[" + who + "] " + why + ".");
 }
 

@@ -74,9 +74,8 @@ protected:
                                {"--snapshot", ".png", PNG}})
       cases_[0].writers.push_back(more);
     cases_[1].writers.push_back({"--snapshot", ".png", PNG});
-    cases_.push_back({"pcl_sq_snapshot",
-                      {model, "--size", "64x48"},
-                      {{"-o", ".png", PNG}}});
+    cases_.push_back(
+        {"pcl_sq_snapshot", {model, "--size", "64x48"}, {{"-o", ".png", PNG}}});
   }
   static void addStereo() {
     const ProgramRun run = runProgram(

@@ -14,7 +14,11 @@ using namespace pcl_sq::test;
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Estimation = ObjectSurfaceEstimation<pcl::PointXYZ>;
+
+/** \brief The paper's chain. */
+struct Estimation : ObjectSurfaceEstimation<pcl::PointXYZ> {
+  Estimation() { setOptions(EstimationOptions::paper()); }
+};
 
 MultiSuperquadric estimate(Estimation& estimation) {
   MultiSuperquadric model;
@@ -22,7 +26,8 @@ MultiSuperquadric estimate(Estimation& estimation) {
   return model;
 }
 
-std::string failureOf(const Cloud::Ptr& cloud, const EstimationOptions& options = {}) {
+std::string failureOf(const Cloud::Ptr& cloud,
+                      const EstimationOptions& options = EstimationOptions::paper()) {
   Estimation estimation;
   estimation.setInputCloud(cloud);
   estimation.setOptions(options);
@@ -56,7 +61,7 @@ TEST(ObjectSurfaceEstimation, SeveralPartsFitBetterThanOne) {
   Estimation estimation;
   estimation.setInputCloud(cloud);
   const MultiSuperquadric several = estimate(estimation);
-  EstimationOptions options;
+  EstimationOptions options = EstimationOptions::paper();
   options.decomposition = Decomposition::NONE;
   estimation.setOptions(options);
   const double distortion = estimation.getReport().distortion;
@@ -170,7 +175,7 @@ TEST(ObjectSurfaceEstimation, BadCloudsGiveAReasonAndNoModel) {
 
 TEST(ObjectSurfaceEstimation, HugeCoordinatesAndHugeGridsAreRefusedOrSurvived) {
   auto cloud = toCloud(visiblePoints(bottle(), 2000));
-  EstimationOptions options;
+  EstimationOptions options = EstimationOptions::paper();
   options.voxels.rule = VoxelRule::DIVISIONS;
   options.voxels.divisions.setConstant(10000); // 1e12 voxels
   EXPECT_NE(failureOf(cloud, options).find("voxels"), std::string::npos);
@@ -187,8 +192,37 @@ TEST(ObjectSurfaceEstimation, HugeCoordinatesAndHugeGridsAreRefusedOrSurvived) {
 
 TEST(ObjectSurfaceEstimation, InvalidOptionsAreRefusedAndTheOldOnesKept) {
   Estimation estimation;
-  EstimationOptions options;
+  EstimationOptions options = EstimationOptions::paper();
   options.grasp_threshold = -1.0;
   estimation.setOptions(options);
   EXPECT_EQ(estimation.getOptions().grasp_threshold, 0.05);
+}
+
+TEST(ObjectSurfaceEstimation, TellsItsStagesInOrder) {
+  std::vector<std::pair<std::string, double>> told;
+  EstimationOptions options = EstimationOptions::paper();
+  options.progress = [&told](const std::string& stage, double share) {
+    told.emplace_back(stage, share);
+  };
+  ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
+  estimation.setOptions(options);
+  estimation.setInputCloud(toCloud(visiblePoints(bottle(), 5000, 0.0005)));
+  MultiSuperquadric model;
+  ASSERT_TRUE(estimation.estimate(model));
+  std::vector<std::string> begun;
+  double last = 0.0;
+  for (const auto& [stage, share] : told) {
+    if (share == 0.0) {
+      begun.push_back(stage);
+      last = 0.0;
+    }
+    EXPECT_EQ(stage, begun.back());
+    EXPECT_GE(share, last);
+    EXPECT_LE(share, 1.0);
+    last = share;
+  }
+  std::vector<std::string> timed;
+  for (const auto& [stage, ms] : estimation.getReport().timings_ms)
+    timed.push_back(stage);
+  EXPECT_EQ(begun, timed);
 }

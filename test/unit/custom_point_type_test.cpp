@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A user's own point type: PCL_NO_PRECOMPILE brings the templates' bodies in.
+// A user's own point type, without and with PCL_NO_PRECOMPILE.
 #define PCL_NO_PRECOMPILE
 #include "pcl_sq/adaptive_voxel_grid.h"
 #include "pcl_sq/grasp_point_filter.h"

@@ -88,7 +88,7 @@ TEST(TabletopSegmentation, SaysWhyThereIsNoObject) {
     p.getVector3fMap() = (random.direction() * random.uniform(0, 1)).cast<float>();
   EXPECT_FALSE(tabletop.segment(object));
   TabletopOptions options;
-  options.max_iterations = 0;
+  options.cluster_gap = -1.0;
   tabletop.setOptions(options);
-  EXPECT_EQ(tabletop.getOptions().max_iterations, 500);
+  EXPECT_EQ(tabletop.getOptions().cluster_gap, 0.0);
 }

@@ -6,7 +6,7 @@
 
 #include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
-#include <pcl/console/print.h>
+#include <pcl/filters/impl/filter.hpp>
 #include <pcl/type_traits.h>
 
 #include <boost/mpl/size.hpp>
@@ -168,21 +168,25 @@ void AdaptiveVoxelGrid<PointT>::averagePoints(PointCloud& output) {
   std::vector<pcl::CentroidPoint<PointT>> others;
   const bool average_others = downsample_all_data_ && detail::HAS_MORE_THAN_XYZ<PointT>;
   leaf_layout_.assign(layout_.counts.size(), -1);
-  detail::forEachVoxel(
-      *input_, *indices_, layout_, [&](pcl::index_t index, std::int32_t cell) {
-        const PointT& point = (*input_)[static_cast<std::size_t>(index)];
-        const auto voxel = static_cast<std::size_t>(cell);
-        if (layout_.counts[voxel]++ == 0) {
-          leaf_layout_[voxel] = static_cast<int>(sums.size());
-          sums.emplace_back(Eigen::Vector3d::Zero());
-          if (average_others)
-            others.emplace_back();
-        }
-        const auto slot = static_cast<std::size_t>(leaf_layout_[voxel]);
-        sums[slot] += Eigen::Vector3d(point.x, point.y, point.z);
-        if (average_others)
-          others[slot].add(point);
-      });
+  detail::forEachVoxel(detail::coordinatesOf(*input_),
+                       *indices_,
+                       layout_,
+                       [&](pcl::index_t index, std::int32_t cell) {
+                         const PointT& point =
+                             (*input_)[static_cast<std::size_t>(index)];
+                         const auto voxel = static_cast<std::size_t>(cell);
+                         if (layout_.counts[voxel]++ == 0) {
+                           leaf_layout_[voxel] = static_cast<int>(sums.size());
+                           sums.emplace_back(Eigen::Vector3d::Zero());
+                           if (average_others)
+                             others.emplace_back();
+                         }
+                         const auto slot =
+                             static_cast<std::size_t>(leaf_layout_[voxel]);
+                         sums[slot] += Eigen::Vector3d(point.x, point.y, point.z);
+                         if (average_others)
+                           others[slot].add(point);
+                       });
   layout_.min_points =
       options_.min_points > 0 ? options_.min_points : validityThreshold(layout_.counts);
   output.reserve(layout_.validCount());

@@ -2,13 +2,32 @@
 #pragma once
 
 #include "pcl_sq/grasp_point_filter.h"
+#include "pcl_sq/impl/coordinates.hpp"
 
-#include <pcl/common/point_tests.h>
-#include <pcl/console/print.h>
+#include <pcl/filters/impl/filter_indices.hpp>
 
 #include <cmath>
 
 namespace pcl_sq {
+
+namespace detail {
+
+/** \brief The finite ones of the points that are on a union's surface, and those that
+ * are not, in the order of \a indices. */
+PCL_SQ_EXPORTS void selectOnSurface(const MultiSuperquadric& model,
+                                    const CoordinateMap& points,
+                                    const pcl::Indices& indices,
+                                    SurfaceMetric metric,
+                                    double tolerance,
+                                    pcl::Indices& on_surface,
+                                    pcl::Indices& others);
+
+/** \brief surfaceNoise() of some points of a cloud. */
+PCL_SQ_EXPORTS double surfaceNoise(const MultiSuperquadric& model,
+                                   const CoordinateMap& points,
+                                   const pcl::Indices& indices);
+
+} // namespace detail
 
 template <typename PointT>
 GraspPointFilter<PointT>::GraspPointFilter(bool extract_removed_indices)
@@ -84,48 +103,25 @@ void GraspPointFilter<PointT>::describe(const pcl::Indices& indices,
 
 template <typename PointT>
 void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
-  indices.clear();
   removed_indices_->clear();
   if (model_.empty())
     PCL_WARN("[pcl_sq::%s::applyFilter] There is no model and so no point on its "
              "surface; hand one to setModel().\n",
              filter_name_.c_str());
+  const detail::CoordinateMap points = detail::coordinatesOf(*input_);
   double tolerance =
       metric_ == SurfaceMetric::GAUGE ? gauge_tolerance_ : distance_threshold_;
   if (metric_ == SurfaceMetric::SIGMA) {
-    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(indices_->size()));
-    for (std::size_t i = 0; i < indices_->size(); ++i) {
-      const PointT& point = (*input_)[static_cast<std::size_t>((*indices_)[i])];
-      points.col(static_cast<Eigen::Index>(i)) << point.x, point.y, point.z;
-    }
-    sigma_ = surfaceNoise(model_, points);
+    sigma_ = detail::surfaceNoise(model_, points, *indices_);
     tolerance = sigma_threshold_ * sigma_;
   }
-  constexpr Eigen::Index CHUNK = 4096; // points tested at a time
-  Eigen::Matrix3Xd points(3, CHUNK);
-  pcl::Indices tested;
-  const auto testChunk = [&] {
-    const auto n = static_cast<Eigen::Index>(tested.size());
-    const std::vector<bool> hits =
-        onSurface(model_, points.leftCols(n), metric_, tolerance);
-    for (std::size_t i = 0; i < tested.size(); ++i) {
-      if (hits[i] != negative_)
-        indices.push_back(tested[i]);
-      else if (extract_removed_indices_)
-        removed_indices_->push_back(tested[i]);
-    }
-    tested.clear();
-  };
-  for (const auto index : *indices_) {
-    const PointT& point = (*input_)[static_cast<std::size_t>(index)];
-    if (!pcl::isXYZFinite(point))
-      continue;
-    points.col(static_cast<Eigen::Index>(tested.size())) << point.x, point.y, point.z;
-    tested.push_back(index);
-    if (static_cast<Eigen::Index>(tested.size()) == CHUNK)
-      testChunk();
-  }
-  testChunk();
+  pcl::Indices others;
+  detail::selectOnSurface(
+      model_, points, *indices_, metric_, tolerance, indices, others);
+  if (negative_)
+    indices.swap(others);
+  if (extract_removed_indices_)
+    removed_indices_->swap(others);
 }
 
 } // namespace pcl_sq

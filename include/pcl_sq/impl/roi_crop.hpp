@@ -3,9 +3,9 @@
 
 #include "pcl_sq/roi_crop.h"
 
-#include <pcl/common/eigen.h>
-#include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
+#include <pcl/filters/impl/crop_box.hpp>
+#include <pcl/filters/impl/filter_indices.hpp>
 
 #include <cmath>
 #include <limits>

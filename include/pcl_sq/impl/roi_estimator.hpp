@@ -4,7 +4,7 @@
 #include "pcl_sq/roi_estimator.h"
 
 #include <pcl/common/point_tests.h>
-#include <pcl/console/print.h>
+#include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 

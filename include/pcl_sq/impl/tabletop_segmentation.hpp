@@ -3,7 +3,10 @@
 
 #include "pcl_sq/tabletop_segmentation.h"
 
-#include <pcl/console/print.h>
+// PCL's own body for point types that its library does not have compiled in
+#include <pcl/impl/pcl_base.hpp>
+
+#include <limits>
 
 namespace pcl_sq {
 
@@ -23,32 +26,47 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   object.clear();
   if (!initCompute())
     return false;
-  Eigen::Matrix3Xf points(3, static_cast<Eigen::Index>(indices_->size()));
-  for (std::size_t i = 0; i < indices_->size(); ++i)
-    points.col(static_cast<Eigen::Index>(i)) =
-        (*input_)[(*indices_)[i]].getVector3fMap();
+  // an image stays one where points are left out
+  const bool image = input_->isOrganized();
+  const std::size_t count = image ? input_->size() : indices_->size();
+  Eigen::Matrix3Xf points = Eigen::Matrix3Xf::Constant(
+      3, static_cast<Eigen::Index>(count), std::numeric_limits<float>::quiet_NaN());
+  std::vector<pcl::index_t> index_of(count, 0);
+  for (std::size_t i = 0; i < indices_->size(); ++i) {
+    const auto index = (*indices_)[i];
+    const std::size_t column = image ? static_cast<std::size_t>(index) : i;
+    points.col(static_cast<Eigen::Index>(column)) = (*input_)[index].getVector3fMap();
+    index_of[column] = index;
+  }
   std::vector<bool> candidates;
   if (candidates_) {
     std::vector<bool> of_cloud(input_->size(), false);
     for (const auto index : *candidates_)
       of_cloud[static_cast<std::size_t>(index)] = true;
-    for (const auto index : *indices_)
+    for (const auto index : index_of)
       candidates.push_back(of_cloud[static_cast<std::size_t>(index)]);
   }
+  TabletopOptions options = options_;
+  const Eigen::Vector3d origin =
+      input_->sensor_origin_.template head<3>().template cast<double>();
+  if (!options.viewpoint && origin.norm() > 0.0)
+    options.viewpoint = origin;
   std::vector<int> columns;
   failure_.clear();
   const bool found = findTabletopObject(points,
-                                        input_->sensor_origin_.template head<3>(),
+                                        image ? static_cast<int>(input_->width)
+                                              : static_cast<int>(count),
+                                        image ? static_cast<int>(input_->height) : 1,
                                         candidates,
-                                        options_,
-                                        plane_,
+                                        options,
+                                        table_,
                                         columns,
                                         &failure_);
   if (!found)
     PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", failure_.c_str());
   object.reserve(columns.size());
   for (const int column : columns)
-    object.push_back((*indices_)[column]);
+    object.push_back(index_of[static_cast<std::size_t>(column)]);
   deinitCompute();
   return found;
 }

@@ -9,6 +9,7 @@
 #include <pcl/point_types.h>
 
 #include <string>
+#include <vector>
 
 namespace pcl_sq {
 
@@ -38,6 +39,7 @@ struct Segment {
   /** \brief Whether the mask follows the object's outline; false where colours did not
    * tell it from its surroundings and the mask is the hint's box. */
   bool outlined = true;
+  std::vector<std::string> notes; ///< fall-backs, one sentence each
 };
 
 /** \brief Finds the object in the image (paper, II: "a color based segmentation process

@@ -20,7 +20,7 @@ struct PCL_SQ_EXPORTS StereoOptions {
   /** Side of the matched window [px], odd, 3 to 51; 0: 15 for BM (11 below a width of
    * 600 px), 5 for SGBM. */
   int block_size = 0;
-  /** Nearest and farthest depth that is searched [m], positive; 0: found on reduced
+  /** Nearest and farthest depth that is searched [m], 0.001 to 1e6; 0: found on reduced
    * images. A fixed range is faster and surer. */
   double min_depth = 0.0, max_depth = 0.0;
   /** Largest disagreement of the left and right disparity [px], 0 to 100; negative: no

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which reader? The contents say it, the extension only where they do not.
+#include "app.h"
+#include "lines.h"
+#include "shape.h"
+
+#include <algorithm>
+
+namespace pcl_sq::app {
+
+namespace {
+
+bool startsWith(std::string_view bytes, std::string_view start) {
+  return bytes.substr(0, start.size()) == start;
+}
+
+/** \brief Files that are often taken for point clouds. */
+void refuseOtherFormats(std::string_view bytes) {
+  const struct {
+    std::string_view start;
+    const char* name;
+  } formats[] = {{"\xff\xfe", "UTF-16 text; save it as UTF-8"},
+                 {"\xfe\xff", "UTF-16 text; save it as UTF-8"},
+                 {"LASF", "a LAS or LAZ file; convert it to PCD, PLY or text"},
+                 {"ASTM-E57", "an E57 file; convert it to PCD, PLY or text"},
+                 {"\x89PNG", "a PNG image; pcl_sq_stereo reads images"},
+                 {"\xff\xd8\xff", "a JPEG image; pcl_sq_stereo reads images"},
+                 {"PK\x03\x04", "a zip archive; unpack it"},
+                 {"\x1f\x8b", "packed by gzip; unpack it"},
+                 {"#ROSBAG", "a ROS bag; convert it with pcl_ros bag_to_pcd"},
+                 {"glTF", "a glTF file; convert it to PLY, OBJ or STL"},
+                 {"OFF", "an OFF file; convert it to PLY, OBJ or STL"}};
+  for (const auto& format : formats)
+    if (startsWith(bytes, format.start))
+      throw Failure(std::string("it is ") + format.name);
+}
+
+/** \brief First word of the first line that is neither empty nor a comment. */
+std::string firstWord(std::string_view bytes) {
+  Lines lines(bytes);
+  std::string_view line;
+  while (lines.next(line)) {
+    const std::string_view word = takeWord(line);
+    if (!word.empty() && word[0] != '#' && word.substr(0, 2) != "//")
+      return lowered(word.substr(0, 16));
+  }
+  return {};
+}
+
+bool isText(std::string_view bytes) {
+  constexpr std::size_t LOOKED_AT = 1000;
+  return std::none_of(bytes.begin(),
+                      bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), LOOKED_AT)),
+                      [](char c) {
+                        const auto byte = static_cast<unsigned char>(c);
+                        return byte < 0x20 && !(byte >= '\t' && byte <= '\r');
+                      });
+}
+
+} // namespace
+
+Shape readShape(std::string_view bytes, const std::string& extension) {
+  if (startsWith(bytes, "\xef\xbb\xbf")) // a byte-order mark
+    bytes.remove_prefix(3);
+  if (bytes.empty())
+    throw Failure("it is empty");
+  const std::string word = firstWord(bytes.substr(0, 100000));
+  const auto starts = [&word](std::initializer_list<const char*> words) {
+    return std::any_of(
+        words.begin(), words.end(), [&](const char* w) { return word == w; });
+  };
+  if (isBinaryStl(bytes))
+    return readStl(bytes);
+  if (word == "ply")
+    return readPly(bytes);
+  if (startsWith(bytes, "# .PCD") || starts({"version", "fields", "columns"}))
+    return readPcd(bytes);
+  if (word == "solid")
+    return readStl(bytes);
+  if (starts({"v", "vn", "vt", "vp", "f", "g", "o", "s", "mtllib", "usemtl"}))
+    return readObj(bytes);
+  refuseOtherFormats(bytes);
+  if (extension == ".ply")
+    return readPly(bytes);
+  if (extension == ".pcd")
+    return readPcd(bytes);
+  if (extension == ".stl")
+    return readStl(bytes);
+  if (extension == ".obj")
+    return readObj(bytes);
+  if (!isText(bytes))
+    throw Failure(
+        "it is neither PCD, PLY, OBJ, STL nor text with three numbers a line");
+  return readText(bytes);
+}
+
+} // namespace pcl_sq::app

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of numbers: .xyz, .txt, .asc, .csv, .pts ...
+#include "app.h"
+#include "lines.h"
+#include "shape.h"
+#include "text.h"
+#include "text_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_sq::app {
+
+namespace {
+
+const char* const DECIMAL_COMMAS = "decimal commas; write points (1.5 instead of 1,5)";
+
+class TextReader {
+public:
+  explicit TextReader(std::string_view bytes) : lines_(bytes) {}
+
+  Shape read() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      std::string_view rest = line;
+      const std::string_view word = takeWord(rest);
+      if (word.empty())
+        continue;
+      if (word[0] == '#' || word[0] == '%' || word.substr(0, 2) == "//")
+        readComment(line);
+      else if (hasDecimalCommas(line))
+        failInLine(lines_.number(), DECIMAL_COMMAS);
+      else
+        readCells(line);
+    }
+    if (promised_ > shape_.points.size())
+      throw Failure("its first line promises " + std::to_string(promised_) +
+                    " points, but it holds " + std::to_string(shape_.points.size()) +
+                    "; it is truncated");
+    return std::move(shape_);
+  }
+
+private:
+  void readComment(std::string_view line) {
+    if (!shape_.points.empty())
+      return;
+    if (const auto columns = readColumnNames(line); columns && !has_header_)
+      columns_ = columns;
+  }
+
+  void readCells(std::string_view line) {
+    splitCells(line, cells_);
+    if (shape_.points.empty() && (readCount() || readNames(line)))
+      return;
+    if (shape_.points.empty())
+      start(line);
+    if (pairs_ && areTorn())
+      failInLine(lines_.number(), DECIMAL_COMMAS);
+    Eigen::Vector3d point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t k = columns_->axes[axis];
+      if (k >= cells_.size())
+        failInLine(lines_.number(),
+                   columns_->names == 0 ? "it does not hold three numbers"
+                                        : std::to_string(cells_.size()) +
+                                              " values, but the header names " +
+                                              std::to_string(columns_->names));
+      double value = std::numeric_limits<double>::quiet_NaN();
+      if (!cells_[k].empty() && !parseNumber(cells_[k], value))
+        failInLine(lines_.number(), app::quoted(cells_[k]) + " is no number");
+      point[static_cast<Eigen::Index>(axis)] = value;
+    }
+    shape_.points.push_back(point);
+    if (columns_->colors)
+      readColor();
+  }
+
+  /** \brief A number of points alone on its line, as .pts files begin. */
+  bool readCount() {
+    std::uint64_t count = 0;
+    if (cells_.size() != 1 || !parseCount(cells_[0], count))
+      return false;
+    if (has_count_)
+      failInLine(
+          lines_.number(),
+          "a second number of points, as a PTX file has; export the cloud as PCD, "
+          "PLY or text without a header");
+    has_count_ = true;
+    promised_ = count;
+    return true;
+  }
+
+  /** \brief A line of words in front of the numbers. */
+  bool readNames(std::string_view line) {
+    double value = 0.0;
+    std::size_t words = 0;
+    for (const std::string_view cell : cells_) {
+      if (parseNumber(cell, value))
+        return false;
+      words += !cell.empty();
+    }
+    if (has_header_ || words == 0)
+      return false;
+    columns_ = readColumnNames(line);
+    if (!columns_)
+      failInLine(
+          lines_.number(),
+          app::quoted(line) +
+              " is neither three numbers nor does it name the columns x, y and z");
+    has_header_ = true;
+    return true;
+  }
+
+  /** \brief The header against the first line of numbers. */
+  void start(std::string_view line) {
+    const std::size_t count = cells_.size();
+    const std::size_t names = columns_ ? columns_->names : 0;
+    if (names > 0 && count == 2 * names && line.find(',') != std::string_view::npos)
+      failInLine(lines_.number(), DECIMAL_COMMAS);
+    if (names > count && has_header_)
+      failInLine(lines_.number(),
+                 std::to_string(count) + " values, but the header names " +
+                     std::to_string(names));
+    if (names != count && !has_header_)
+      columns_.reset(); // a comment like any other
+    pairs_ = count >= 6 && count % 2 == 0 && line.find(',') != std::string_view::npos;
+    if (columns_)
+      return;
+    columns_ = TextColumns();
+    // .pts: x y z intensity r g b; all else: x y z r g b
+    const std::size_t red = has_count_ && count >= 7 ? 4 : 3;
+    if (count >= red + 3)
+      columns_->colors = {red, red + 1, red + 2};
+  }
+
+  /** \brief Whether the cells are what decimal commas tear apart: 0,0075 -> 0 0075. */
+  bool areTorn() const {
+    bool zero = false;
+    for (const std::string_view cell : cells_) {
+      if (cell.find_first_not_of("-+0123456789") != std::string_view::npos)
+        return false;
+      zero = zero || (cell.size() > 1 && cell[0] == '0');
+    }
+    return zero;
+  }
+
+  /** \brief Three levels of 0 to 255; a line that has none shows that they are no
+   * colours (normals, for example). */
+  void readColor() {
+    std::uint32_t color = 0;
+    for (const std::size_t k : *columns_->colors) {
+      double level = -1.0;
+      if (k >= cells_.size() || !parseNumber(cells_[k], level))
+        level = -1.0;
+      level *= columns_->color_scale;
+      const bool whole = columns_->color_scale != 1.0 || level == std::floor(level);
+      if (!(level >= 0.0 && level <= 255.0 && whole)) {
+        columns_->colors.reset();
+        shape_.colors.clear();
+        return;
+      }
+      color = color << 8U | static_cast<std::uint32_t>(std::lround(level));
+    }
+    shape_.colors.push_back(color);
+  }
+
+  Lines lines_;
+  std::vector<std::string_view> cells_;
+  std::optional<TextColumns> columns_;
+  bool has_count_ = false, has_header_ = false;
+  bool pairs_ = false; ///< commas, and an even number of cells
+  std::uint64_t promised_ = 0;
+  Shape shape_;
+};
+
+} // namespace
+
+Shape readText(std::string_view bytes) {
+  return TextReader(bytes).read();
+}
+
+} // namespace pcl_sq::app
