@@ -47,7 +47,7 @@ app::ModelResult fit(const std::string& path,
                      app::LoadedCloud& input) {
   std::vector<std::pair<std::string, double>> timings;
   StageTimer timer(timings, options.estimation.progress);
-  input = timer.run("load", [&] { return app::loadCloud(path); });
+  input = timer.run("load", [&] { return app::loadCloud(path, options.cloud); });
   return app::makeModel(input, path, options, timings.back().second);
 }
 
@@ -197,6 +197,7 @@ int main(int argc, char** argv) {
                      "order of the clouds; each is added as soon as it is done, so "
                      "that Ctrl-C keeps those; what fails has an \"error\" instead of "
                      "a model. Clouds in parallel");
+        app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
         app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",
