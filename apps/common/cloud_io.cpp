@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 
 namespace pcl_sq::app {
@@ -100,9 +99,7 @@ void sampleFaces(Shape& shape, const CloudOptions& options, LoadedCloud& loaded)
 } // namespace
 
 Shape loadShape(const std::string& path) {
-  const std::string bytes =
-      path == "-" ? std::string(std::istreambuf_iterator<char>(std::cin), {})
-                  : readFile(path);
+  const std::string bytes = readFile(path);
   try {
     return readShape(bytes, extensionOf(path));
   } catch (const Failure& failure) {
