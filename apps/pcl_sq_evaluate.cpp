@@ -175,10 +175,13 @@ int work(const Options& o) {
     json["distortion_mm"] = c.distortion_mm;
   }
   line.clear();
+  // names may hold bytes that are not UTF-8
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   if (!o.output.empty())
-    writeTextFile(o.output, json.dump(2) + "\n");
+    writeTextFile(o.output, text + "\n");
   if (o.format == "json")
-    std::cout << json.dump(2) << '\n';
+    std::cout << text << '\n';
   else
     printTable(json);
   return DONE;

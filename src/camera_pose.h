@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. Images are looked at in their camera's frame, whatever frame the cloud is in.
+// Private. Images are looked at in their camera's frame, whatever frame the cloud is
+// in.
 #pragma once
 
 #include "pcl_sq/object_view.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera of an organized cloud in any frame. Errors of depth move points along their
-// pixels' rays, so that a projection fits noisy points as well as exact ones.
+// The camera of an organized cloud in any frame. Errors of depth move points along
+// their pixels' rays, so that a projection fits noisy points as well as exact ones.
 #include "pcl_sq/object_view.h"
 
 #include <Eigen/Dense>
@@ -84,8 +84,7 @@ bool solveProjection(const std::vector<Eigen::Matrix<double, N, 1>>& sources,
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, SIZE, SIZE>> eigen(square);
   const auto& values = eigen.eigenvalues();
-  if (eigen.info() != Eigen::Success ||
-      !(values[1] > TINY * TINY * values[SIZE - 1]))
+  if (eigen.info() != Eigen::Success || !(values[1] > TINY * TINY * values[SIZE - 1]))
     return false;
   Eigen::Matrix<double, 3, N + 1> m;
   for (int row = 0; row < 3; ++row)

@@ -18,17 +18,17 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t SAMPLE = 20000; ///< points in which planes are looked for
+constexpr std::size_t SAMPLE = 20000;  ///< points in which planes are looked for
 constexpr std::size_t LOOKED_AT = 300; ///< of them, for noise and spacing
 constexpr int NEIGHBOURS = 24;         ///< through which a plane goes
 /** \brief Gap between two things, over the points' spacing: surfaces seen at a slant of
  * 75 degrees are four times as sparse. */
 constexpr double GAP = 5.0;
-constexpr double CLEAR = 4.0;       ///< of the noise: farther points are no table's
-constexpr double GROWTH = 1.5;      ///< of the distance, while a plane goes on beyond it
-constexpr double GOES_ON = 1.2;     ///< points within twice the distance over those in it
+constexpr double CLEAR = 4.0;   ///< of the noise: farther points are no table's
+constexpr double GROWTH = 1.5;  ///< of the distance, while a plane goes on beyond it
+constexpr double GOES_ON = 1.2; ///< points within twice the distance over those in it
 constexpr int MAX_GROWTHS = 6;
-constexpr double MOSTLY = 0.5;      ///< of a thing's points are over its table
+constexpr double MOSTLY = 0.5; ///< of a thing's points are over its table
 
 /** \brief What a scene's points are like, whatever they show. */
 struct Texture {
@@ -165,7 +165,9 @@ Standing findInList(const CloudPoints& points,
   search.up = view.up;
   search.upward = upwardOf(search.voters, bool(view.viewpoint));
   search.table = view.table;
-  search.at = [&points](int c) { return Eigen::Vector3d(points.col(c).cast<double>()); };
+  search.at = [&points](int c) {
+    return Eigen::Vector3d(points.col(c).cast<double>());
+  };
   search.refine = [&](TableModel& plane) {
     // errors that neighbours share are larger than their scatter: a plane whose points
     // go on beyond the distance is thicker than that
@@ -186,18 +188,16 @@ Standing findInList(const CloudPoints& points,
     Standing found;
     found.table = table;
     const auto standing = [&](const Eigen::Vector3d& p) {
-      return clearance > 0.0 ? clearance
-                             : standingHeight(table,
-                                              view.viewpoint
-                                                  ? (p - *view.viewpoint).norm()
-                                                  : 0.0);
+      return clearance > 0.0
+                 ? clearance
+                 : standingHeight(table,
+                                  view.viewpoint ? (p - *view.viewpoint).norm() : 0.0);
     };
-    const Outline outline =
-        outlineOf(points,
-                  within ? *within : finite,
-                  table,
-                  std::max(search.distance, 3.0 * table.noise),
-                  2.0 * reach);
+    const Outline outline = outlineOf(points,
+                                      within ? *within : finite,
+                                      table,
+                                      std::max(search.distance, 3.0 * table.noise),
+                                      2.0 * reach);
     std::vector<int> above;
     for (const int c : within ? *within : finite) {
       const Eigen::Vector3d p = search.at(c);

@@ -158,8 +158,9 @@ bool observeBare(Observation& o, std::string& why) {
       viewpoint.reset();
   }
   if (viewpoint && !out.viewpoint_known)
-    out.notes.push_back("no viewpoint is given; the points show one side of something, "
-                        "and the camera is taken to be on it; give its place if it is another");
+    out.notes.push_back(
+        "no viewpoint is given; the points show one side of something, "
+        "and the camera is taken to be on it; give its place if it is another");
   if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();

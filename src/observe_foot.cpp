@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t LOWEST = 20; ///< each how many-th of the object's pixels is low
 constexpr int STEPS = 8;           ///< from a low point down to the table
-constexpr double SEEN = 0.5; ///< of the low points, below which the table is seen
+constexpr double SEEN = 0.5;       ///< of the low points, below which the table is seen
 
 } // namespace
 
@@ -63,7 +63,8 @@ void findFoot(Observation& o, const CellRect& box, int rim) {
   // a pixel's height on an upright wall
   const Eigen::Vector3d ray =
       (out.points.rowwise().mean() - out.camera.center).normalized();
-  const double across = std::sqrt(std::max(1.0 - std::pow(ray.dot(table.normal), 2), 0.01));
+  const double across =
+      std::sqrt(std::max(1.0 - std::pow(ray.dot(table.normal), 2), 0.01));
   const double pixel = out.depth / std::sqrt(out.camera.fx * out.camera.fy);
   out.foot = standingHeight(table, out.depth) + rim * pixel / across;
 }

@@ -18,8 +18,9 @@ const double LEVEL = std::sqrt(0.5);
 /** \brief A wall that faces a camera looking down by an angle a has the uprightness
  * -sin a, the table before it cos a: half of the least difference tells them apart. */
 constexpr double MORE_UPRIGHT = 0.5;
-constexpr double LARGE = 0.2; ///< of the table's points: what is as large may be a table
-constexpr double NESTED_SHARE = 0.5;  ///< of such a thing's points, on its top
+constexpr double LARGE =
+    0.2; ///< of the table's points: what is as large may be a table
+constexpr double NESTED_SHARE = 0.5;   ///< of such a thing's points, on its top
 constexpr double NESTED_THING = 0.125; ///< of that top's points: a thing on a table
 
 } // namespace

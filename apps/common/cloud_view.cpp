@@ -17,8 +17,7 @@ CloudPoints coordinatesOf(const LoadedCloud& input) {
 }
 
 std::optional<Eigen::Vector3d> viewpointOf(const LoadedCloud& input) {
-  const Eigen::Vector3d origin =
-      input.cloud->sensor_origin_.head<3>().cast<double>();
+  const Eigen::Vector3d origin = input.cloud->sensor_origin_.head<3>().cast<double>();
   std::optional<Eigen::Vector3d> told;
   if (origin.norm() > 0.0 && origin.allFinite())
     told = origin;

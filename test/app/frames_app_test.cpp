@@ -24,8 +24,9 @@ std::string tinPcd(bool viewpoint) {
   list.colwise() += robot.cast<float>();
   const Eigen::Vector3d eye = scene.camera.center + robot;
   std::ostringstream text;
-  text << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
-       << "WIDTH " << list.cols() << "\nHEIGHT 1\nVIEWPOINT ";
+  text
+      << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+      << "WIDTH " << list.cols() << "\nHEIGHT 1\nVIEWPOINT ";
   if (viewpoint)
     text << eye.transpose();
   else

@@ -30,7 +30,8 @@ std::string postXyz() {
             .toRotationMatrix();
     for (int i = 0; i <= 20; ++i)
       for (int k = 0; k <= 40; ++k)
-        points.col(n++) = turn * r * Eigen::Vector3d(0.02, -0.02 + 0.002 * i, 0.0025 * k);
+        points.col(n++) =
+            turn * r * Eigen::Vector3d(0.02, -0.02 + 0.002 * i, 0.0025 * k);
   }
   return xyzOf(points);
 }

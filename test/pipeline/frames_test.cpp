@@ -95,8 +95,7 @@ TEST(Frames, AnImageInARobotsFrameIsSeenByItsCamera) {
   expectCan(room, 0.03);
   EXPECT_EQ(room.report.view.outline, OutlineSource::DEPTH);
   EXPECT_TRUE(room.report.view.viewpoint_known);
-  EXPECT_NEAR(
-      (room.report.view.camera.center - scene.camera.center).norm(), 0.0, 1e-3);
+  EXPECT_NEAR((room.report.view.camera.center - scene.camera.center).norm(), 0.0, 1e-3);
   ASSERT_EQ(room.model.size(), here.model.size());
   const Eigen::Vector3d back =
       scene.camera.rotation * here.model.parts[0].center + scene.camera.center;

@@ -12,10 +12,10 @@ namespace pcl_sq::test {
  * z = 0, with a wall and a floor where asked for. */
 struct TableScene {
   int width = 160, height = 120;
-  PinholeCamera camera;              ///< its pose in the room
-  Eigen::Vector2d half_table{3, 3};  ///< [m]
-  double wall = 1e3;                 ///< y of a wall across the view [m]
-  double floor = 1e3;                ///< below the table [m]
+  PinholeCamera camera;             ///< its pose in the room
+  Eigen::Vector2d half_table{3, 3}; ///< [m]
+  double wall = 1e3;                ///< y of a wall across the view [m]
+  double floor = 1e3;               ///< below the table [m]
   std::vector<Superquadric> things;
   double noise = 0.001; ///< of the depth at 0.7 m [m]; grows with its square
 
@@ -71,8 +71,9 @@ struct TableScene {
         const double t = hit(ray);
         const double error = noise * t * t / 0.49 * random.normal();
         points.col(y * width + x) =
-            t < 20.0 ? Eigen::Vector3f((camera.center + (t + error) * ray).cast<float>())
-                     : Eigen::Vector3f::Constant(std::nanf(""));
+            t < 20.0
+                ? Eigen::Vector3f((camera.center + (t + error) * ray).cast<float>())
+                : Eigen::Vector3f::Constant(std::nanf(""));
       }
     return points;
   }
@@ -118,9 +119,8 @@ private:
 };
 
 /** \brief Height of the lowest and highest point of a model, z up [m]. */
-inline std::pair<double, double> heightsOf(const MultiSuperquadric& model,
-                                           const Eigen::Vector3d& up,
-                                           double offset) {
+inline std::pair<double, double>
+heightsOf(const MultiSuperquadric& model, const Eigen::Vector3d& up, double offset) {
   double low = 1e9, high = -1e9;
   for (const Superquadric& s : model.parts) {
     low = std::min(low, up.dot(s.center) - s.support(-up));

@@ -81,6 +81,5 @@ TEST(FindCamera, WhatIsNoImageHasNone) {
   const TableScene scene = TableScene().can();
   PinholeCamera camera;
   const Eigen::Matrix3Xf points = TableScene::listOf(scene.inRoom());
-  EXPECT_FALSE(
-      findCamera(points.leftCols(120 * 120), 120, 120, std::nullopt, camera));
+  EXPECT_FALSE(findCamera(points.leftCols(120 * 120), 120, 120, std::nullopt, camera));
 }

@@ -23,14 +23,8 @@ Found find(const Eigen::Matrix3Xf& points,
            int height,
            const TabletopOptions& options = {}) {
   Found found;
-  found.ok = findTabletopObject(points,
-                                width,
-                                height,
-                                {},
-                                options,
-                                found.table,
-                                found.object,
-                                &found.why);
+  found.ok = findTabletopObject(
+      points, width, height, {}, options, found.table, found.object, &found.why);
   return found;
 }
 
@@ -43,7 +37,8 @@ Found findInListOf(const TableScene& scene, const TabletopOptions& options = {})
   return find(list, int(list.cols()), 1, options);
 }
 
-/** \brief The table is z = 0 and the object within a box about the can at the origin. */
+/** \brief The table is z = 0 and the object within a box about the can at the origin.
+ */
 void expectCan(const Found& found, const Eigen::Matrix3Xf& points) {
   ASSERT_TRUE(found.ok) << found.why;
   EXPECT_GT(found.table.normal.z(), 0.999);
