@@ -5,6 +5,7 @@
 #include "evaluation.h"
 #include "files.h"
 #include "mesh_reader.h"
+#include "offset.h"
 #include "pcl_sq/model_io.h"
 #include "pose_file.h"
 #include "truth.h"
@@ -28,6 +29,7 @@ struct Options {
   std::string symmetry = "none", format = "json";
   std::size_t samples = 60000;
   unsigned int threads = 0;
+  CloudOptions cloud_options;
 };
 
 void addOptions(CLI::App& cli, Options& o) {
@@ -47,6 +49,7 @@ void addOptions(CLI::App& cli, Options& o) {
       ->capture_default_str();
   cli.add_option("--cloud", o.cloud, "Measured points of the object")
       ->type_name("FILE");
+  addUnitOption(cli, o.cloud_options);
   cli.add_option("--samples", o.samples, "Points for each of volume and surfaces")
       ->check(wholeNumber(1000, 10000000))
       ->capture_default_str();
@@ -61,7 +64,7 @@ void addOptions(CLI::App& cli, Options& o) {
 ReferenceShape loadShape(const Options& o) {
   ReferenceShape shape;
   if (o.truth.empty()) {
-    shape.mesh = readMesh(o.mesh);
+    shape.mesh = readMesh(o.mesh, o.cloud_options);
     if (!o.pose.empty())
       readPose(o.pose, shape.rotation, shape.translation);
     if (!symmetryFromString(o.symmetry, &shape.symmetry))
@@ -167,10 +170,13 @@ int work(const Options& o) {
   if (!o.truth.empty() || !o.mesh.empty())
     json["shape"] = toJson(evaluateShape(model, loadShape(o), o.samples, o.threads));
   if (!o.cloud.empty()) {
-    const Eigen::Matrix3Xd points = finitePoints(loadCloud(o.cloud));
+    const LoadedCloud cloud = loadCloud(o.cloud, o.cloud_options);
+    const Eigen::Matrix3Xd points = finitePoints(cloud);
     if (points.cols() == 0)
       throw Failure("'" + o.cloud + "' holds no finite point.");
-    const CloudFigures c = evaluateCloud(model, points, o.threads);
+    ModelFile near = file;
+    near.model = moved(std::move(near.model), -cloud.offset);
+    const CloudFigures c = evaluateCloud(near.tapered(), points, o.threads);
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }

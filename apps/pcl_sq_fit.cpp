@@ -41,7 +41,7 @@ app::ModelResult fit(const std::string& path,
                      app::LoadedCloud& input) {
   std::vector<std::pair<std::string, double>> timings;
   StageTimer timer(timings, options.estimation.progress);
-  input = timer.run("load", [&] { return app::loadCloud(path); });
+  input = timer.run("load", [&] { return app::loadCloud(path, options.cloud); });
   return app::makeModel(input, path, options, timings.back().second);
 }
 
@@ -165,6 +165,7 @@ int main(int argc, char** argv) {
         cli.add_flag("--jsonl",
                      arguments.jsonl,
                      "One JSON line per cloud, on stdout or in -o; clouds in parallel");
+        app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
         app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",

@@ -34,12 +34,12 @@ Input loadInput(const std::string& path,
     if (!fromJson(app::readFile(path), input.file, &why))
       throw app::Failure("'" + path + "' is not a model: " + why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::loadCloud(cloud_path);
+      input.cloud = app::loadCloud(cloud_path, model_options.cloud);
     return input;
   }
   app::StageLine line;
   line.show(app::wordsFor("load"));
-  input.cloud = app::loadCloud(path);
+  input.cloud = app::loadCloud(path, model_options.cloud);
   app::ModelOptions options = model_options;
   options.estimation.progress = [&line](const std::string& stage, double share) {
     line.show(app::wordsFor(stage), share);
@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
                        cloud_path,
                        "The scene of a model file: what was seen, what is in the way")
             ->type_name("FILE");
+        app::addCloudOptions(cli, model_options.cloud);
         app::addViewOptions(cli, model_options);
         cli.add_option(
                "--roi", model_options.roi, "Object in the image of a cloud [px]")

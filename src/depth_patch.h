@@ -64,4 +64,8 @@ private:
   std::vector<std::uint8_t> own_, other_;
 };
 
+/** \brief Whether the pixels' depths err each by itself, as seen on a plane beside the
+ * object. */
+[[nodiscard]] bool errorsAreIndependent(const Observation& o, const TableModel& plane);
+
 } // namespace pcl_sq::detail

@@ -121,7 +121,9 @@ bool observeBare(Observation& o, std::string& why) {
       if (o.finite(c))
         columns.push_back(c);
   if (columns.size() < std::size_t(MIN_POINTS)) {
-    why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
+    why = "fewer than " + std::to_string(MIN_POINTS) +
+          " finite points are the object's; give more "
+          "of it";
     return false;
   }
   shuffle(o, columns);
@@ -174,13 +176,14 @@ bool observeBare(Observation& o, std::string& why) {
   out.effective_points /= sharingOfErrors(out.points);
   out.camera = PinholeCamera::lookingAt(*viewpoint, mean, 500.0);
   out.depth = distance;
-  std::vector<Eigen::Vector2d> pixels;
-  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
-    if (out.camera.depthOf(out.points.col(i)) > 0.1 * distance)
-      pixels.push_back(out.camera.project(out.points.col(i)));
-  for (const Eigen::Vector2d& p : pixels) {
+  // just above the table the points end before the object does
+  const double floor = out.table ? lowestOutline(out) : 0.0;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i) {
+    if (!(out.camera.depthOf(out.points.col(i)) > 0.1 * distance))
+      continue;
     ContourPoint point;
-    point.pixel = p;
+    point.pixel = out.camera.project(out.points.col(i));
+    point.own = !out.table || out.table->height(out.points.col(i)) >= floor;
     out.contour.push_back(point);
   }
   out.outline = OutlineSource::POINTS;

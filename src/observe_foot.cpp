@@ -15,6 +15,15 @@ constexpr double SEEN = 0.5;       ///< of the low points, below which the table
 
 } // namespace
 
+double lowestOutline(const ObservedObject& out) {
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
+    heights.push_back(out.table->height(out.points.col(i)));
+  const auto high = heights.begin() + std::ptrdiff_t(heights.size() * 9 / 10);
+  std::nth_element(heights.begin(), high, heights.end());
+  return std::min(3.0 * standingHeight(*out.table, out.depth), 0.5 * *high);
+}
+
 void findFoot(Observation& o, const CellRect& box, int rim) {
   ObservedObject& out = o.out;
   out.foot = 0.0;

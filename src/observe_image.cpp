@@ -9,7 +9,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int RIM_OF_MASK = 1;    ///< pixels beside a mask's outline that are left out
+/** \brief Pixels beside a mask's outline that are left out, and beside that of depths
+ * that no window has fattened. */
+constexpr int RIM_OF_MASK = 1;
 constexpr int RIM_OF_DEPTH = 3;   ///< the same for the fattened rim of stereo matching
 constexpr double FATTENING = 1.5; ///< expected dilation of an outline from depth [px]
 constexpr int FREE_MARGIN = 2;    ///< pixels beside the outline that may be either's
@@ -32,11 +34,12 @@ void fillHoles(CellMask& mask, const CellRect& box) {
   }
 }
 
-/** \brief Leaves of a region's pixels those of the thing that it was drawn around. */
-void keepTheThing(Observation& o) {
+/** \brief Leaves of a region's pixels those of the thing that it was drawn around.
+ * \return the plane on which it was found, if it was */
+std::optional<TableModel> keepTheThing(Observation& o) {
   const Standing found = findInRegion(o, o.out.pixels);
   if (found.thing.empty())
-    return;
+    return std::nullopt;
   CellMask thing(o.width, o.height);
   for (const int c : found.thing)
     thing.cells[std::size_t(c)] = 1;
@@ -45,17 +48,7 @@ void keepTheThing(Observation& o) {
   if (left_out > 0)
     o.out.notes.push_back(std::to_string(left_out) +
                           " pixels of the region are the table's or another thing's");
-}
-
-/** \brief Height above the table from which on the outline is the object's own; a thin
- * thing's is the edge of its top. */
-double lowestOutline(const ObservedObject& out) {
-  std::vector<double> heights;
-  for (Eigen::Index i = 0; i < out.points.cols(); ++i)
-    heights.push_back(out.table->height(out.points.col(i)));
-  const auto high = heights.begin() + std::ptrdiff_t(heights.size() * 9 / 10);
-  std::nth_element(heights.begin(), high, heights.end());
-  return std::min(3.0 * standingHeight(*out.table, out.depth), 0.5 * *high);
+  return found.table;
 }
 
 } // namespace
@@ -63,6 +56,7 @@ double lowestOutline(const ObservedObject& out) {
 bool observeImage(Observation& o, std::string& why) {
   ObservedObject& out = o.out;
   const bool has_mask = !o.view.mask.cells.empty();
+  std::optional<TableModel> plane = o.view.table; // beside the object
   out.outline = has_mask ? OutlineSource::MASK : OutlineSource::DEPTH;
   if (has_mask)
     out.pixels = o.view.mask;
@@ -70,6 +64,7 @@ bool observeImage(Observation& o, std::string& why) {
     const Standing found = findInImage(o.points, o.width, o.height, o.view);
     out.pixels = CellMask(o.width, o.height);
     out.table = found.thing.empty() ? o.view.table : found.table;
+    plane = out.table;
     for (const int c : found.thing)
       out.pixels.cells[std::size_t(c)] = 1;
     if (found.thing.empty()) {
@@ -86,21 +81,28 @@ bool observeImage(Observation& o, std::string& why) {
     for (const int c : o.object)
       out.pixels.cells[static_cast<std::size_t>(c)] = o.finite(c);
     if (o.view.object_is_region)
-      keepTheThing(o);
+      plane = keepTheThing(o);
   }
   const CellRect box = boundingRect(out.pixels);
   if (box.area() == 0) {
     why = has_mask ? "the mask is empty; mark the object's pixels"
-                   : "the object has no finite point";
+                   : "the object has no finite point; give another region";
     return false;
   }
   if (!has_mask)
     fillHoles(out.pixels, box);
+  if (box.x == 0 || box.y == 0 || box.x + box.width == o.width ||
+      box.y + box.height == o.height)
+    out.notes.push_back("the image border cuts the object: what lies beyond it was not "
+                        "seen, and the model there is a guess");
+  const bool sharp = has_mask || (plane && errorsAreIndependent(o, *plane));
+  const int rim = sharp ? RIM_OF_MASK : RIM_OF_DEPTH;
   DepthPatch patch(o, box);
-  choosePoints(o, box, patch, has_mask ? RIM_OF_MASK : RIM_OF_DEPTH);
+  choosePoints(o, box, patch, rim);
   if (out.points.cols() < MIN_IMAGE_POINTS) {
     why = "fewer than " + std::to_string(MIN_IMAGE_POINTS) + " points lie under the " +
-          (has_mask ? "mask; it must cover the object" : "object's pixels");
+          (has_mask ? "mask; it must cover the object"
+                    : "object's pixels; give a larger region, or a cloud from nearer");
     return false;
   }
   measure(out);
@@ -111,12 +113,12 @@ bool observeImage(Observation& o, std::string& why) {
     findTable(o, box);
   checkTable(out);
   if (!has_mask) // its pixels end above the table
-    findFoot(o, box, RIM_OF_DEPTH);
-  findFreePixels(o, box, FREE_MARGIN + (has_mask ? 0 : RIM_OF_DEPTH));
+    findFoot(o, box, rim);
+  findFreePixels(o, box, FREE_MARGIN + (has_mask ? 0 : rim));
   findGap(o, box);
-  out.outline_sigma = has_mask ? o.view.mask_sigma : 1.5;
-  out.outline_dilation = has_mask ? o.view.mask_dilation : 1.5;
-  out.outline_offset = has_mask ? 0.0 : FATTENING;
+  out.outline_sigma = sharp ? o.view.mask_sigma : 1.5;
+  out.outline_dilation = sharp ? o.view.mask_dilation : 1.5;
+  out.outline_offset = sharp ? 0.0 : FATTENING;
   patch.markOthers(o);
   // just above the table the cluster ends before the object does
   const double floor = has_mask || !out.table ? -1e300 : lowestOutline(out);

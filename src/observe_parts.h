@@ -53,6 +53,10 @@ inline double standingHeight(const TableModel& table, double depth) {
   return std::max(4.0 * table.noise, 0.003 * depth);
 }
 
+/** \brief Height above the table from which on the outline is the object's own; a thin
+ * thing's is the edge of its top. */
+double lowestOutline(const ObservedObject& observed);
+
 /** \brief How far the object may reach below its points: foot and hidden_below.
  * \param[in] rim pixels beside the outline that were left out */
 void findFoot(Observation& o, const CellRect& box, int rim);

@@ -137,7 +137,10 @@ LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
 LoadedCloud loadCloud(const std::string& path, const CloudOptions& options) {
   Shape shape = loadShape(path);
   try {
-    return makeCloud(std::move(shape), options);
+    LoadedCloud loaded = makeCloud(std::move(shape), options);
+    for (const std::string& sentence : loaded.notes)
+      note(sentence);
+    return loaded;
   } catch (const Failure& failure) {
     throw Failure("cannot read '" + printable(path) + "': " + failure.what() + ".");
   }

@@ -108,8 +108,10 @@ GraspScene makeScene(const GraspOptions& options,
   std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
   if (!viewpoint)
     viewpoint = knownSensor(file);
-  if (!viewpoint && cloud)
-    viewpoint = viewpointOf(*cloud);
+  if (!viewpoint && cloud) {
+    if ((viewpoint = viewpointOf(*cloud)))
+      *viewpoint += cloud->offset;
+  }
   if (viewpoint) {
     scene.has_viewpoint = true;
     scene.viewpoint = *viewpoint;
@@ -120,7 +122,8 @@ GraspScene makeScene(const GraspOptions& options,
 Eigen::Matrix3Xd columnsOf(const LoadedCloud& input) {
   Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
   for (std::size_t i = 0; i < input.cloud->size(); ++i)
-    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
+    points.col(Eigen::Index(i)) =
+        (*input.cloud)[i].getVector3fMap().cast<double>() + input.offset;
   return points;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app.h"
 #include "files.h"
+#include "offset.h"
 
 #include "pcl_sq/config.h"
 #include "pcl_sq/graspit_export.h"
@@ -189,8 +190,12 @@ GraspPlan planGrasps(const MultiSuperquadric& model,
                      const GraspOptions& options,
                      double& milliseconds) {
   const auto start = std::chrono::steady_clock::now();
-  const GraspPlan plan =
-      GraspPlanner(options.gripper, options.planner).plan(model, scene);
+  const GraspPlanner planner(options.gripper, options.planner);
+  const Eigen::Vector3d offset = offsetOf(model);
+  GraspPlan plan =
+      offset.isZero()
+          ? planner.plan(model, scene)
+          : moved(planner.plan(moved(model, -offset), moved(scene, -offset)), offset);
   milliseconds = std::chrono::duration<double, std::milli>(
                      std::chrono::steady_clock::now() - start)
                      .count();
@@ -249,8 +254,9 @@ void writeGraspOutputs(const MultiSuperquadric& model,
   if (!options.graspit.empty())
     writeGraspit(model, plan, scene, options);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
+  const Eigen::Vector3d near = -offsetOf(model);
   if (!options.snapshot.empty())
-    writeSnapshot(model, plan, scene, options);
+    writeSnapshot(moved(model, near), moved(plan, near), moved(scene, near), options);
 #endif
 }
 
