@@ -185,7 +185,9 @@ int work(const Options& o) {
     json["distortion_mm"] = c.distortion_mm;
   }
   line.clear();
-  const std::string text = json.dump(2) + "\n";
+  // names may hold bytes that are not UTF-8
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (!o.output.empty())
     writeOutput(o.output, text);
   if (print_json)

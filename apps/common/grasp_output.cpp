@@ -228,7 +228,8 @@ std::string graspsToJson(const GraspPlan& plan,
   json["rejections"] = toJson(plan.rejections);
   json["timings_ms"] = {{"plan", milliseconds}};
   json["generator"] = "pcl_sq " PCL_SQ_VERSION;
-  return json.dump(2);
+  // names may hold bytes that are not UTF-8
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& file) {
@@ -237,7 +238,7 @@ void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& fi
   extra["grasps"] = Json::array();
   for (const Grasp& grasp : plan.grasps)
     extra["grasps"].push_back(toJson(grasp));
-  file.extra_json = extra.dump();
+  file.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void writeGraspOutputs(const MultiSuperquadric& model,
