@@ -296,12 +296,13 @@ int main(int argc, char** argv) {
       "Fits a union of superquadrics to the object in a stereo pair.",
       "  pcl_sq_stereo left.png right.png --calib calib.yml -o model.json "
       "--panel panel.png\n"
-      "  pcl_sq_stereo im0.png im1.png --calib calib.txt --roi 340,110,58,58 "
+      "  pcl_sq_stereo im0.png im1.png --calib calib.txt --roi 481,179,62,407 "
       "--segment grabcut\n"
       "  pcl_sq_stereo left.png right.png --calib calib.yml --matcher sgbm "
       "--click 512,380 --cloud scene.pcd\n"
       "  pcl_sq_stereo left.png right.png --calib left.yaml right.yaml -o model.json\n"
-      "  pcl_sq_stereo left.png right.png --intrinsics 500,500,320,240 --baseline .12\n"
+      "  pcl_sq_stereo left.png right.png --intrinsics 1310,1310,511.5,383.5 "
+      "--baseline .12\n"
       "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
       [&](CLI::App& cli) {
         addFrontOptions(cli, front);

@@ -123,7 +123,9 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   if (!rect.empty()) {
     selection.has_region = true;
     if (!openAperture(input, options, rect, selection))
-      throw Failure("the --roi holds no cluster of points at one depth.");
+      throw Failure(
+          "the --roi holds no cluster of points at one depth; draw it around the "
+          "object, where the cloud has points.");
   } else {
     selection.indices->resize(cloud.size());
     std::iota(selection.indices->begin(), selection.indices->end(), 0);

@@ -58,8 +58,9 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       "A part's points keep their front, or the centre is the region's or theirs");
 }
 
-/** \brief Voxels along a side beyond which none of any sensor holds two points. */
-constexpr int MAX_DIVISIONS = 1000;
+/** \brief Voxels along a side: an image of a megapixel has three points, which a voxel
+ * needs, in each of so many squared. The search for prisms takes their cube. */
+constexpr int MAX_DIVISIONS = 500;
 
 void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
   VoxelOptions& voxels = options.voxels;
@@ -74,7 +75,7 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->default_str("5,5,10")
-      ->check(positiveNumber(100.0));
+      ->check(number(100.0 / MAX_DIVISIONS, 100.0));
   cli.add_option_function<double>(
          "--voxel-size",
          [&voxels](double size) {

@@ -4,6 +4,7 @@
 #include "folder.h"
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,14 @@ namespace pcl_sq::test {
 struct ProgramRun {
   int code = -1; ///< exit code; 128 + signal after a crash
   std::string out, err;
-  /** \brief Lines on stderr. */
+  /** \brief Lines on stderr that are no notes. */
   int sentences() const {
-    int lines = 0;
-    for (const char c : err)
-      lines += c == '\n';
-    return lines;
+    std::istringstream lines(err);
+    std::string line;
+    int count = 0;
+    while (std::getline(lines, line))
+      count += line.find(": note: ") == std::string::npos ? 1 : 0;
+    return count;
   }
 };
 
