@@ -84,7 +84,7 @@ void copyPoints(const Shape& shape, LoadedCloud& loaded) {
 void sampleFaces(Shape& shape, const CloudOptions& options, LoadedCloud& loaded) {
   for (const auto& triangle : shape.triangles)
     for (const std::uint32_t corner : triangle)
-      if (!(shape.points[corner].cwiseAbs().maxCoeff() <= 1e9))
+      if (!(shape.points[corner].array().abs() <= 1e9).all()) // NaN neither
         throw Failure("its vertex " + std::to_string(corner + 1) +
                       " has a coordinate that is no length in metres");
   std::vector<Eigen::Vector3d> points = sampleSurface(shape, options.samples);

@@ -29,8 +29,8 @@ void weld(TriangleMesh& mesh) {
   };
   std::sort(order.begin(), order.end(), less);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool equal = k > 0 && all[order[k]] == all[order[k - 1]];
-    first[order[k]] = equal ? first[order[k - 1]] : order[k];
+    const bool same = k > 0 && all[order[k]] == all[order[k - 1]];
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
   }
   mesh.vertices.clear();
   std::vector<std::uint32_t> place(all.size());
@@ -52,7 +52,7 @@ TriangleMesh makeMesh(Shape shape) {
   // squares and cubes of lengths must stay numbers, with room for the unit
   constexpr double FARTHEST = 1e9;
   for (std::size_t i = 0; i < shape.points.size(); ++i)
-    if (!(shape.points[i].cwiseAbs().maxCoeff() <= FARTHEST))
+    if (!(shape.points[i].array().abs() <= FARTHEST).all()) // NaN neither
       throw Failure("its vertex " + std::to_string(i + 1) +
                     " has a coordinate that is no length");
   TriangleMesh mesh;
