@@ -98,8 +98,8 @@ void addPieces(const std::vector<Region>& all,
   std::vector<const Region*> pieces;
   for (const Region& r : all) {
     const CellRect at = boxOf(r.pixels, width);
-    if (r.cut() || at.x < box.x - beside || at.x + at.width > box.x + box.width + beside ||
-        at == box)
+    if (r.cut() || at.x < box.x - beside ||
+        at.x + at.width > box.x + box.width + beside || at == box)
       continue;
     pieces.push_back(&r);
     columns.insert(columns.end(), r.pixels.begin(), r.pixels.end());
