@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_sq {
 
@@ -23,6 +24,13 @@ Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+/** \brief Adds a number; one that is not finite is left out, for JSON has no word for
+ * it and readers take what is missing for unknown. */
+void addFinite(Json& object, const char* key, double number) {
+  if (std::isfinite(number))
+    object[key] = number;
+}
+
 Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
   Json rotation = Json::array();
   for (int row = 0; row < 3; ++row)
@@ -34,8 +42,8 @@ Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
   if (s.isTapered())
     json["taper"] = {s.kx, s.ky};
   json["points"] = statistics.points;
-  json["distortion"] = statistics.distortion;
-  json["rms_distance"] = statistics.rms_distance;
+  addFinite(json, "distortion", statistics.distortion);
+  addFinite(json, "rms_distance", statistics.rms_distance);
   json["termination"] = statistics.termination;
   return json;
 }
@@ -68,7 +76,10 @@ Eigen::Matrix<double, N, 1> numbers(const Json& array, const char* name) {
 
 double optionalNumber(const Json& object, const char* key) {
   const auto it = object.find(key);
-  return it != object.end() && it->is_number() ? it->get<double>() : 0.0;
+  const double number = it != object.end() && it->is_number() ? it->get<double>() : 0.0;
+  if (!(std::abs(number) <= 1e20)) // as the model's own sizes
+    throw Refusal{std::string("\"") + key + "\" is larger than 1e20"};
+  return number;
 }
 
 std::size_t optionalCount(const Json& object, const char* key) {
@@ -99,6 +110,11 @@ Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
     s.kx = taper[0];
     s.ky = taper[1];
   }
+  if (may_taper && part.contains("taper")) {
+    const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
+    s.kx = taper[0];
+    s.ky = taper[1];
+  }
   std::string why;
   if (!s.isValid(&why))
     throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
@@ -108,7 +124,9 @@ Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
 /** \brief The version, if it is one that is known. */
 int versionFromJson(const Json& json) {
   const Json& version = member(json, "version");
-  const long long number = version.is_number_integer() ? version.get<long long>() : 0;
+  if (!version.is_number_integer())
+    throw Refusal{"\"version\" is not a whole number"};
+  const auto number = version.get<long long>();
   if (number < VERSION || number > TABLE_VERSION)
     throw Refusal{"version " + version.dump() +
                   " of the schema is not known, 1 to 3 are"};
@@ -198,7 +216,7 @@ std::string toJson(const ModelFile& file, int indent) {
                                    [](const Superquadric& s) { return s.isTapered(); });
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
-    timings[stage] = ms;
+    addFinite(timings, stage.c_str(), ms);
   Json json = {{"schema", SCHEMA},
                {"version",
                 file.table ? TABLE_VERSION
@@ -206,15 +224,14 @@ std::string toJson(const ModelFile& file, int indent) {
                            : VERSION},
                {"unit", "m"},
                {"frame", file.frame},
-               {"superquadrics", parts},
-               {"distortion", file.distortion},
-               {"rms_distance", file.rms_distance},
-               {"input",
-                {{"path", file.input_path},
-                 {"points", file.input_points},
-                 {"finite_points", file.finite_points}}},
-               {"options", Json::parse(file.options_json)},
-               {"timings_ms", timings}};
+               {"superquadrics", parts}};
+  addFinite(json, "distortion", file.distortion);
+  addFinite(json, "rms_distance", file.rms_distance);
+  json["input"] = {{"path", file.input_path},
+                   {"points", file.input_points},
+                   {"finite_points", file.finite_points}};
+  json["options"] = Json::parse(file.options_json);
+  json["timings_ms"] = timings;
   if (file.table)
     json["table"] = *file.table;
   const Json extra = Json::parse(file.extra_json);

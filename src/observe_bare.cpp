@@ -121,7 +121,9 @@ bool observeBare(Observation& o, std::string& why) {
       if (o.finite(c))
         columns.push_back(c);
   if (columns.size() < std::size_t(MIN_POINTS)) {
-    why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
+    why = "fewer than " + std::to_string(MIN_POINTS) +
+          " finite points are the object's; give more "
+          "of it";
     return false;
   }
   shuffle(o, columns);

@@ -42,8 +42,7 @@ bool addTaper(const LoadedCloud& input,
       pointsAt(input, result.report.parts.at(0).indices.indices);
   result.taper = fitTapered(points, options.estimation.full_fit);
   if (!result.taper->ok())
-    throw Failure("the points allow no tapered fit (" +
-                  std::string(toString(result.taper->untapered.termination)) + ").");
+    throw Failure("the points allow no tapered fit; leave out --taper.");
   if (!result.taper->model.isTapered())
     return false;
   ModelFile& file = result.file;
