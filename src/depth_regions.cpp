@@ -93,12 +93,13 @@ void addPieces(const std::vector<Region>& all,
                int width,
                Region& thing) {
   const CellRect box = boxOf(thing.pixels, width);
+  const int beside = std::max(2, box.width / 10); // rims are wider than what they crown
   std::vector<int> columns = thing.pixels;
   std::vector<const Region*> pieces;
   for (const Region& r : all) {
     const CellRect at = boxOf(r.pixels, width);
-    if (r.cut() || at.x < box.x - 2 || at.x + at.width > box.x + box.width + 2 ||
-        at == box)
+    if (r.cut() || at.x < box.x - beside ||
+        at.x + at.width > box.x + box.width + beside || at == box)
       continue;
     pieces.push_back(&r);
     columns.insert(columns.end(), r.pixels.begin(), r.pixels.end());

@@ -65,7 +65,8 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
 }
 
 void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
-  cli.add_option("-o,--output", options.output, "Grasps as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Grasps as JSON; -: standard output")
+      ->type_name("FILE");
   cli.add_option("--count", options.planner.count, "Most grasps to give")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
@@ -86,9 +87,10 @@ void checkGraspOptions(const GraspOptions& options) {
   (void)options.frame.tableOf(); // refuse what makes no sense before the work
   (void)options.frame.viewpointOf();
   (void)options.frame.upOf();
-  for (const std::string& path : {options.output, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  if (!options.graspit.empty())
+    claimFolder(options.graspit);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 GraspScene makeScene(const GraspOptions& options,
