@@ -15,7 +15,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 
 using namespace pcl_sq;
 using namespace pcl_sq::app;
@@ -33,7 +32,7 @@ struct Options {
 };
 
 void addOptions(CLI::App& cli, Options& o) {
-  cli.add_option("model", o.model, "Model to judge (JSON)")
+  cli.add_option("model", o.model, "Model to judge (JSON); -: standard input")
       ->required()
       ->type_name("FILE");
   cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")->type_name("FILE");
@@ -149,12 +148,17 @@ void printTable(const Json& json) {
 int work(const Options& o) {
   if (o.truth.empty() && o.mesh.empty() && o.cloud.empty())
     throw UsageError("give --truth, --mesh or --cloud to judge the model against.");
-  if (!o.output.empty())
-    checkWritable(o.output);
+  for (const std::string& input : {o.model, o.truth, o.mesh, o.cloud})
+    claimInput(input);
+  claimOutput("--output", o.output);
+  // the figures on standard output are for programs: nothing else may be there
+  const bool print_json = o.format == "json" && !isStandardOutput(o.output);
+  if (print_json)
+    claimOutput("--format json", "-");
   ModelFile file;
   std::string why;
-  if (!fromJson(readFile(o.model), file, &why, TaperedParts::READ))
-    throw Failure("'" + o.model + "' is not a model: " + why);
+  if (!loadModel(o.model, file, &why, TaperedParts::READ))
+    throw Failure(why + ".");
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const TaperedUnion model = file.tapered();
@@ -181,11 +185,14 @@ int work(const Options& o) {
     json["distortion_mm"] = c.distortion_mm;
   }
   line.clear();
+  // names may hold bytes that are not UTF-8
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (!o.output.empty())
-    writeTextFile(o.output, json.dump(2) + "\n");
-  if (o.format == "json")
-    std::cout << json.dump(2) << '\n';
-  else
+    writeOutput(o.output, text);
+  if (print_json)
+    writeOutput("-", text);
+  if (o.format == "table")
     printTable(json);
   return DONE;
 }

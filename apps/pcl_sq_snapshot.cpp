@@ -49,7 +49,7 @@ void configure(CLI::App& cli, Arguments& a) {
   cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
       ->type_name("FILE");
   app::addCloudOptions(cli, a.cloud_options);
-  cli.add_option("-o,--output", a.output, "Picture, ends in .png")
+  cli.add_option("-o,--output", a.output, "Picture, ends in .png; -: standard output")
       ->type_name("FILE")
       ->required();
   cli.add_option("--size", a.size, "Width x height [px], 16 to 4096 each")
@@ -94,10 +94,12 @@ void check(Arguments& a) {
   std::string why;
   if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
     throw app::UsageError(why + ".");
-  if (app::extensionOf(a.output) != ".png")
-    throw app::UsageError("'" + a.output +
-                          "' does not end in .png, the one format of pictures.");
-  app::checkWritable(a.output);
+  app::claimInput(a.model);
+  app::claimInput(a.cloud);
+  if (a.turntable > 0 && app::extensionOf(a.output) != ".png")
+    throw app::UsageError("--turntable writes several files; give --output a name that "
+                          "ends in .png.");
+  app::claimOutput("--output", a.output, {".png"});
 }
 
 /** \brief Three numbers that pcl_sq_fit reports: "up", "sensor"; if it does. */
@@ -126,8 +128,8 @@ int takePictures(const Arguments& a) {
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
-    if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
-      throw app::Failure("'" + a.model + "' is no model file: " + why);
+    if (!loadModel(a.model, file, &why, TaperedParts::READ))
+      throw app::Failure(why + ".");
     // pictures are made of floats
     const Eigen::Vector3d offset = cloud ? cloud->offset : app::offsetOf(file.model);
     file.model = app::moved(std::move(file.model), -offset);
@@ -150,11 +152,15 @@ int takePictures(const Arguments& a) {
     app::addCloud(renderer, *cloud);
   if (a.turntable == 0) {
     renderer.save(a.output);
+    app::noteWritten(a.output);
     return app::DONE;
   }
   app::Progress progress("turntable", static_cast<std::size_t>(a.turntable));
-  renderer.saveTurntable(
+  const std::vector<std::string> names = renderer.saveTurntable(
       a.output, a.turntable, [&](std::size_t done) { progress.update(done); });
+  app::noteWritten(names.front());
+  if (names.size() > 1)
+    app::noteWritten(names.size() > 2 ? "... " + names.back() : names.back());
   return app::DONE;
 }
 

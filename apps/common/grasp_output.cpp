@@ -157,6 +157,7 @@ void writeSnapshot(const MultiSuperquadric& model,
     renderer.addLines(forks, {120, 160, 120}, 1.5);
   renderer.addPoints(contacts, {220, 30, 30}, 12.0);
   renderer.save(options.snapshot);
+  noteWritten(options.snapshot);
 }
 #endif
 
@@ -174,12 +175,8 @@ void writeGraspit(const MultiSuperquadric& model,
   for (const TextFile& file : graspitFiles(model, settings)) {
     const std::filesystem::path path =
         std::filesystem::path(options.graspit) / file.path;
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error)
-      throw Failure("cannot make the folder '" + path.parent_path().string() +
-                    "': " + error.message() + ".");
-    writeTextFile(path.string(), file.contents);
+    makeFolder(path.parent_path().string());
+    writeOutput(path.string(), file.contents);
   }
 }
 
@@ -231,7 +228,8 @@ std::string graspsToJson(const GraspPlan& plan,
   json["rejections"] = toJson(plan.rejections);
   json["timings_ms"] = {{"plan", milliseconds}};
   json["generator"] = "pcl_sq " PCL_SQ_VERSION;
-  return json.dump(2);
+  // names may hold bytes that are not UTF-8
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& file) {
@@ -240,7 +238,7 @@ void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& fi
   extra["grasps"] = Json::array();
   for (const Grasp& grasp : plan.grasps)
     extra["grasps"].push_back(toJson(grasp));
-  file.extra_json = extra.dump();
+  file.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void writeGraspOutputs(const MultiSuperquadric& model,
@@ -249,7 +247,7 @@ void writeGraspOutputs(const MultiSuperquadric& model,
                        const GraspOptions& options,
                        const std::string& json) {
   if (!options.output.empty())
-    writeTextFile(options.output, json + "\n");
+    writeOutput(options.output, json + "\n");
   if (!options.graspit.empty())
     writeGraspit(model, plan, scene, options);
 #ifdef PCL_SQ_HAVE_VISUALIZATION

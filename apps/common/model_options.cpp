@@ -113,7 +113,8 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.set_config("--config", "", "TOML file with options; the command line wins")
       ->type_name("FILE")
       ->check(existingFile());
-  cli.add_option("-o,--output", options.output, "Model as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Model as JSON; -: standard output")
+      ->type_name("FILE");
   addViewOptions(cli, options);
   addFitOptions(cli, options.estimation);
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
@@ -133,7 +134,9 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       "Take the largest thing that stands on a plane of the cloud; with --roi or "
       "--box the thing in it");
   addPrismOptions(cli, options.estimation);
-  cli.add_option("--grasp-points", options.grasp_points, "Points on the surface as PCD")
+  cli.add_option("--grasp-points",
+                 options.grasp_points,
+                 "Points on the surface as PCD; -: standard output")
       ->type_name("FILE");
   cli.add_option("--grasp-threshold",
                  options.estimation.grasp_threshold,
@@ -144,9 +147,12 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       ->check(wholeNumber(0, 1024))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  cli.add_option("--mesh", options.mesh, "Surface as .ply, .obj, .stl or .vtp")
+  cli.add_option("--mesh",
+                 options.mesh,
+                 "Surface as .ply, .obj, .stl or .vtp; -: PLY on standard output")
       ->type_name("FILE");
-  cli.add_option("--snapshot", options.snapshot, "Picture as PNG")->type_name("FILE");
+  cli.add_option("--snapshot", options.snapshot, "Picture as PNG; -: standard output")
+      ->type_name("FILE");
 #endif
 }
 
@@ -161,10 +167,10 @@ void checkModelOptions(const ModelOptions& options) {
       throw UsageError("--box wants each minimum below its maximum: "
                        "minx,miny,minz,maxx,maxy,maxz.");
   checkTaper(options);
-  for (const std::string& path :
-       {options.output, options.mesh, options.grasp_points, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});
+  claimOutput("--grasp-points", options.grasp_points);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 } // namespace pcl_sq::app

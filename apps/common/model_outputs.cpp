@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app.h"
+#include "cloud_bytes.h"
 #include "files.h"
 #include "model_options.h"
 #include "offset.h"
@@ -11,8 +12,6 @@
 #include "pcl_sq/visualization/mesh_writer.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 #endif
-
-#include <pcl/io/pcd_io.h>
 
 namespace pcl_sq::app {
 
@@ -48,10 +47,7 @@ void writeGraspPoints(const std::string& path,
   if (points.empty())
     throw Failure("no point lies on the model's surface; '" + path +
                   "' is not written.");
-  writeAtomically(path, [&](const std::string& temporary) {
-    if (pcl::PCDWriter().writeBinary(temporary, points) != 0)
-      throw Failure("cannot write '" + path + "'.");
-  });
+  writeOutput(path, pcdBytes(points));
 }
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
@@ -67,6 +63,7 @@ void writeSnapshot(const std::string& path,
   addCloud(renderer, input);
   addModel(renderer, nearFile(input, result));
   renderer.save(path);
+  noteWritten(path);
 }
 #endif
 
@@ -76,18 +73,19 @@ void writeOutputs(const LoadedCloud& input,
                   const ModelResult& result,
                   const ModelOptions& options) {
   if (!options.output.empty())
-    writeTextFile(options.output, toJson(result.file) + "\n");
+    writeOutput(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
     writeGraspPoints(options.grasp_points,
                      input,
                      nearFile(input, result).model,
                      result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  const std::string format = extensionOf(options.mesh);
+  const std::string format = formatOf(options.mesh, ".ply");
   const bool single_precision = format == ".ply" || format == ".stl";
   if (!options.mesh.empty()) {
     writeMesh(options.mesh,
               meshesOf(single_precision ? nearFile(input, result) : result.file));
+    noteWritten(options.mesh);
     if (single_precision)
       tellOffset(options.mesh, input.offset);
   }

@@ -23,7 +23,7 @@ std::vector<Option> optionsOf(const std::string& program) {
   const ProgramRun run = runProgram(program, {"--help"});
   EXPECT_EQ(run.code, 0) << run.err;
   std::vector<Option> options;
-  const std::regex line("(?:^|\n) +(?:-., )?(--[a-z-]+)(?: ([^ \n]+))?(?= *\n|  )");
+  const std::regex line("\n {2}(?:-., |    )(--[a-z-]+)(?: ([^ \n]+))?(?= *\n|  )");
   for (std::sregex_iterator i(run.out.begin(), run.out.end(), line), end; i != end; ++i)
     options.push_back({(*i)[1], (*i)[2]});
   EXPECT_GT(options.size(), 5u) << run.out;

@@ -20,6 +20,7 @@ NAMED = {"depth.png": "depth.png", "mask.png": "mask.png", "labels.png": "mask.p
          "left.png": "bottle/left.png", "right.png": "bottle/right.png",
          "im0.png": "bottle/left.png", "im1.png": "bottle/right.png",
          "calib.txt": "calib.txt", "scene.pcd": "kinect.pcd", "kinect.pcd": "kinect.pcd",
+         "bottle.pcd": "kinect.pcd",
          "stereo_calib.xml": "stereo_calib.xml", "truth.json": "bottle/truth.json"}
 ENDING = {".png": "color.png", ".pcd": "can.pcd", ".ply": "can.ply", ".obj": "mesh.obj",
           ".stl": "mesh.stl", ".xyz": "can.xyz", ".txt": "can.xyz", ".asc": "can.xyz",
@@ -111,7 +112,11 @@ def documents():
     for folder, _, names in os.walk(source + "/docs"):
         paths += [os.path.join(folder, n) for n in sorted(names) if n.endswith(".md")]
     for path in paths:
-        blocks = re.findall(r"^```(?:sh|bash|console)\n(.*?)^```", open(path).read(), re.S | re.M)
+        text = open(path).read()
+        blocks = re.findall(r"^```(?:sh|bash|console)\n(.*?)^```", text, re.S | re.M)
+        text = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+        blocks += [" ".join(span.split())  # in the running text
+                   for span in re.findall(r"`(pcl_sq_[a-z]+\s[^`]+)`", text)]
         lines = [l for block in blocks for l in joined(block.split("\n"))]
         lines = [re.sub(r"^\$ ", "", l.strip()) for l in lines]
         yield os.path.relpath(path, source), [l for l in lines if l and l[0] != "#"

@@ -112,11 +112,11 @@ TEST(Cloud, WallsAndStraysAreNotMissing) {
 }
 
 TEST(Cloud, GeoreferencedPointsKeepTheirDigits) {
-  const Eigen::Vector3d place(451234.125, 5412345.25, 312.5);
+  const Eigen::Vector3d place(451234.125, 5412345.25, 312.25);
   app::Shape shape = box(place, 0.05);
   shape.points[3].setZero(); // a stray does not hide it
   const app::LoadedCloud loaded = app::makeCloud(shape, {});
-  EXPECT_EQ(loaded.offset, Eigen::Vector3d(451234, 5412345, 313));
+  EXPECT_EQ(loaded.offset, Eigen::Vector3d(451234, 5412345, 312));
   for (std::size_t i = 4; i < shape.points.size(); ++i) {
     const Eigen::Vector3d back =
         (*loaded.cloud)[i].getVector3fMap().cast<double>() + loaded.offset;

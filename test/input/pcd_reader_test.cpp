@@ -106,7 +106,7 @@ TEST(PcdReader, ReadsColoursAsFloatsAndAsIntegers) {
   const std::string point = bytesOf(1.0f) + bytesOf(2.0f) + bytesOf(3.0f);
   for (const std::string& bytes :
        {header + "DATA binary\n" + point + bytesOf(single),
-        header + "DATA ascii\n1 2 3 1.4804638e-39\n",
+        header + "DATA ascii\n1 2 3 1.480914638e-39\n",
         header + "DATA ascii\n1 2 3 1056816\n",
         replaced(header, "F F F F", "F F F U") + "DATA ascii\n1 2 3 4279246896\n"}) {
     const app::Shape shape = app::readShape(bytes, ".pcd");
@@ -134,8 +134,9 @@ TEST(PcdReader, NamesTheLineOrTheFieldThatIsWrong) {
     return why;
   };
   EXPECT_TRUE(tells(refused("5.5", "5,5"), {"line 13", "'5,5'"}));
-  EXPECT_TRUE(tells(refused(" 5.5 6e-1", ""), {"line 13", "1 numbers instead of 3"}));
-  EXPECT_TRUE(tells(refused("-4 5.5 6e-1\n", ""), {"2 points", "after 1"}));
+  EXPECT_TRUE(
+      tells(refused("5.5 6e-1", "5.500000"), {"line 13", "2 numbers instead of 3"}));
+  EXPECT_TRUE(tells(refused("-4 5.5 6e-1\n", ""), {"2 points", "holds 1"}));
   EXPECT_TRUE(tells(refused("WIDTH 2", "WIDTH two"), {"line 7", "'two'"}));
   EXPECT_TRUE(tells(refused("x y z", "x y intensity"), {"no field 'z'"}));
   EXPECT_TRUE(tells(refused("SIZE 4 4 4", "SIZE 4 4 2"), {"'z'", "SIZE 2"}));

@@ -139,7 +139,7 @@ TEST(PlyReader, NamesTheLineOrThePropertyThatIsWrong) {
     return why;
   };
   EXPECT_TRUE(tells(refused("5", "5abc"), {"line 10", "'5abc'"}));
-  EXPECT_TRUE(tells(refused("4 5 6", "4 5"), {"2 of 'vertex'", "after 1"}));
+  EXPECT_TRUE(tells(refused("4 5 6", "4 5555"), {"2 of 'vertex'", "after 1"}));
   EXPECT_TRUE(tells(refused("4 5 6", "4 5 6 7"), {"line 10", "more numbers"}));
   EXPECT_TRUE(tells(refused("float y", "float v"), {"no property 'y'"}));
   EXPECT_TRUE(tells(refused("float y", "floot y"), {"line 6", "'floot'"}));

@@ -28,15 +28,18 @@ struct ProgramRun {
 };
 
 /** \brief Runs one of our programs.
- * \param[in] before shell text in front of it, for example "ulimit -v 500000;" */
+ * \param[in] before shell text in front of it, for example "ulimit -v 500000;"
+ * \param[in] input the file that is its standard input */
 inline ProgramRun runProgram(const std::string& name,
                              const std::vector<std::string>& arguments,
-                             const std::string& before = "") {
+                             const std::string& before = "",
+                             const std::string& input = "/dev/null") {
   const Folder folder;
   std::string command = before + " '" PCL_SQ_BIN_DIR "/" + name + "'";
   for (const std::string& argument : arguments)
     command += " '" + argument + "'";
-  command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
+  command +=
+      " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' <'" + input + "'";
   const int status = std::system(command.c_str());
   ProgramRun run;
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
