@@ -115,6 +115,11 @@ Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
     s.kx = taper[0];
     s.ky = taper[1];
   }
+  if (may_taper && part.contains("taper")) {
+    const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
+    s.kx = taper[0];
+    s.ky = taper[1];
+  }
   std::string why;
   if (!s.isValid(&why))
     throw Refusal{"superquadric " + std::to_string(index) + ": " + why};
@@ -139,7 +144,9 @@ std::array<double, 4> tableFromJson(const Json& json) {
   const double length = table.head<3>().norm();
   if (!table.allFinite() || !(std::abs(length - 1.0) < 1e-3))
     throw Refusal{"the normal of \"table\" must have length one"};
-  const Eigen::Vector4d t = table / length;
+  // what was written comes back to the bit
+  const bool exact = std::abs(length - 1.0) < 1e-12;
+  const Eigen::Vector4d t = exact ? table : Eigen::Vector4d(table / length);
   return {t[0], t[1], t[2], t[3]};
 }
 

@@ -51,10 +51,10 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Largest |kx|, |ky|; 1 would be an apex. */
   static constexpr double MAX_TAPER = 0.95;
 
-  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], in the cloud's frame
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], the cloud's frame, to 1e20
   /** \brief Columns: the superquadric's axes in the cloud's frame. */
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  /** \brief a1, a2, a3 [m], positive; a1 and a2 are those at z = 0. */
+  /** \brief a1, a2, a3 [m], 1e-20 to 1e20; a1 and a2 are those at z = 0. */
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
   double epsilon1 = 1.0; ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
   double epsilon2 = 1.0; ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
