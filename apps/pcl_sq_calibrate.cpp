@@ -54,7 +54,9 @@ void addOptions(CLI::App& cli, Options& o) {
       ->check(positiveNumber(100.0))
       ->type_name("M");
   cli.add_flag("--rational", o.rational, "Eight lens coefficients, for wide angles");
-  cli.add_option("-o,--output", o.output, "Calibration as OpenCV YAML or XML")
+  cli.add_option("-o,--output",
+                 o.output,
+                 "Calibration as OpenCV YAML or XML; -: YAML on standard output")
       ->required()
       ->type_name("FILE");
 }
@@ -201,22 +203,20 @@ Calibration calibrate(const Views& views, bool rational) {
 }
 
 void write(const std::string& path, const Views& views, const Calibration& c) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    cv::FileStorage out(temporary, cv::FileStorage::WRITE);
-    if (!out.isOpened())
-      throw Failure("cannot write '" + path + "'; it must end in .yml or .xml.");
-    out << "image_width" << views.size.width << "image_height" << views.size.height
-        << "M1" << c.M1 << "D1" << c.D1 << "M2" << c.M2 << "D2" << c.D2 << "R" << c.R
-        << "T" << c.T << "R1" << c.R1 << "R2" << c.R2 << "P1" << c.P1 << "P2" << c.P2
-        << "Q" << c.Q << "rms_px" << c.rms << "epipolar_error_px" << c.row_error;
-  });
+  cv::FileStorage out(formatOf(path, ".yml"),
+                      cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+  out << "image_width" << views.size.width << "image_height" << views.size.height
+      << "M1" << c.M1 << "D1" << c.D1 << "M2" << c.M2 << "D2" << c.D2 << "R" << c.R
+      << "T" << c.T << "R1" << c.R1 << "R2" << c.R2 << "P1" << c.P1 << "P2" << c.P2
+      << "Q" << c.Q << "rms_px" << c.rms << "epipolar_error_px" << c.row_error;
+  writeOutput(path, out.releaseAndGetString());
 }
 
 int work(const Options& o) {
-  const std::string extension = extensionOf(o.output);
-  if (extension != ".yml" && extension != ".yaml" && extension != ".xml")
-    throw UsageError("--output must end in .yml, .yaml or .xml.");
-  checkWritable(o.output);
+  claimInput(o.list);
+  for (const std::string& image : o.images)
+    claimInput(image);
+  claimOutput("--output", o.output, {".yml", ".yaml", ".xml"});
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   const Views views = findBoards(o);
   StageLine line;

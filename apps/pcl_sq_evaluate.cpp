@@ -5,6 +5,7 @@
 #include "evaluation.h"
 #include "files.h"
 #include "mesh_reader.h"
+#include "offset.h"
 #include "pcl_sq/model_io.h"
 #include "pose_file.h"
 #include "truth.h"
@@ -14,7 +15,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 
 using namespace pcl_sq;
 using namespace pcl_sq::app;
@@ -28,10 +28,11 @@ struct Options {
   std::string symmetry = "none", format = "json";
   std::size_t samples = 60000;
   unsigned int threads = 0;
+  CloudOptions cloud_options;
 };
 
 void addOptions(CLI::App& cli, Options& o) {
-  cli.add_option("model", o.model, "Model to judge (JSON)")
+  cli.add_option("model", o.model, "Model to judge (JSON); -: standard input")
       ->required()
       ->type_name("FILE");
   cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")->type_name("FILE");
@@ -47,6 +48,7 @@ void addOptions(CLI::App& cli, Options& o) {
       ->capture_default_str();
   cli.add_option("--cloud", o.cloud, "Measured points of the object")
       ->type_name("FILE");
+  addUnitOption(cli, o.cloud_options);
   cli.add_option("--samples", o.samples, "Points for each of volume and surfaces")
       ->check(wholeNumber(1000, 10000000))
       ->capture_default_str();
@@ -61,7 +63,7 @@ void addOptions(CLI::App& cli, Options& o) {
 ReferenceShape loadShape(const Options& o) {
   ReferenceShape shape;
   if (o.truth.empty()) {
-    shape.mesh = readMesh(o.mesh);
+    shape.mesh = readMesh(o.mesh, o.cloud_options);
     if (!o.pose.empty())
       readPose(o.pose, shape.rotation, shape.translation);
     if (!symmetryFromString(o.symmetry, &shape.symmetry))
@@ -146,12 +148,17 @@ void printTable(const Json& json) {
 int work(const Options& o) {
   if (o.truth.empty() && o.mesh.empty() && o.cloud.empty())
     throw UsageError("give --truth, --mesh or --cloud to judge the model against.");
-  if (!o.output.empty())
-    checkWritable(o.output);
+  for (const std::string& input : {o.model, o.truth, o.mesh, o.cloud})
+    claimInput(input);
+  claimOutput("--output", o.output);
+  // the figures on standard output are for programs: nothing else may be there
+  const bool print_json = o.format == "json" && !isStandardOutput(o.output);
+  if (print_json)
+    claimOutput("--format json", "-");
   ModelFile file;
   std::string why;
-  if (!fromJson(readFile(o.model), file, &why, TaperedParts::READ))
-    throw Failure("'" + o.model + "' is not a model: " + why);
+  if (!loadModel(o.model, file, &why, TaperedParts::READ))
+    throw Failure(why + ".");
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const TaperedUnion model = file.tapered();
@@ -167,19 +174,25 @@ int work(const Options& o) {
   if (!o.truth.empty() || !o.mesh.empty())
     json["shape"] = toJson(evaluateShape(model, loadShape(o), o.samples, o.threads));
   if (!o.cloud.empty()) {
-    const Eigen::Matrix3Xd points = finitePoints(loadCloud(o.cloud));
+    const LoadedCloud cloud = loadCloud(o.cloud, o.cloud_options);
+    const Eigen::Matrix3Xd points = finitePoints(cloud);
     if (points.cols() == 0)
       throw Failure("'" + o.cloud + "' holds no finite point.");
-    const CloudFigures c = evaluateCloud(model, points, o.threads);
+    ModelFile near = file;
+    near.model = moved(std::move(near.model), -cloud.offset);
+    const CloudFigures c = evaluateCloud(near.tapered(), points, o.threads);
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }
   line.clear();
+  // names may hold bytes that are not UTF-8
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (!o.output.empty())
-    writeTextFile(o.output, json.dump(2) + "\n");
-  if (o.format == "json")
-    std::cout << json.dump(2) << '\n';
-  else
+    writeOutput(o.output, text);
+  if (print_json)
+    writeOutput("-", text);
+  if (o.format == "table")
     printTable(json);
   return DONE;
 }

@@ -4,11 +4,17 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "model_options.h"
+#include "ordered_lines.h"
+#include "process.h"
 #include "summary.h"
+#include "text.h"
 #include "value_checks.h"
 
 #include "pcl_sq/stage_timer.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <atomic>
 #include <iostream>
 #include <thread>
@@ -41,7 +47,7 @@ app::ModelResult fit(const std::string& path,
                      app::LoadedCloud& input) {
   std::vector<std::pair<std::string, double>> timings;
   StageTimer timer(timings, options.estimation.progress);
-  input = timer.run("load", [&] { return app::loadCloud(path); });
+  input = timer.run("load", [&] { return app::loadCloud(path, options.cloud); });
   return app::makeModel(input, path, options, timings.back().second);
 }
 
@@ -85,7 +91,31 @@ int fitOne(const Arguments& arguments) {
   return app::DONE;
 }
 
-/** \brief One JSON line per cloud in the order of the arguments; clouds in parallel. */
+/** \brief What stands in the place of a model that could not be made. */
+std::string errorLine(const std::string& path, const std::string& sentence) {
+  const nlohmann::ordered_json line = {{"input", {{"path", path}}},
+                                       {"error", sentence}};
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/** \brief The model as a line, or why there is none. \return whether there is */
+bool fitLine(const std::string& path,
+             const app::ModelOptions& options,
+             std::string& line) {
+  std::string sentence;
+  try {
+    app::LoadedCloud input;
+    line = toJson(fit(path, options, input).file, -1);
+    return true;
+  } catch (const std::exception& error) {
+    sentence = app::sentenceOf(error);
+  }
+  line = errorLine(path, sentence);
+  std::cerr << "pcl_sq_fit: " + app::printable(path + ": " + sentence) + "\n";
+  return false;
+}
+
+/** \brief One JSON line per cloud, written as it is done; clouds in parallel. */
 int fitMany(const Arguments& arguments) {
   app::ModelOptions options = arguments.options;
   const std::size_t count = arguments.clouds.size();
@@ -93,17 +123,20 @@ int fitMany(const Arguments& arguments) {
       options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   const std::size_t workers = std::clamp<std::size_t>(cores, 1, count);
   options.threads = workers > 1 ? 1 : options.threads;
-  std::vector<std::string> lines(count), errors(count);
+  // as many turns of all workers as one cloud may take longer than the others
+  constexpr std::size_t TURNS = 8;
+  const std::string output = options.output.empty() ? "-" : options.output;
+  app::OrderedLines lines(output, TURNS * workers);
+  app::setInterruptAction([&] { lines.flush(); });
   std::atomic<std::size_t> next{0}, done{0};
+  std::atomic<bool> all_fitted{true};
   app::Progress progress("fitting", count);
   const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        app::LoadedCloud input;
-        lines[i] = toJson(fit(arguments.clouds[i], options, input).file, -1);
-      } catch (const std::exception& error) {
-        errors[i] = arguments.clouds[i] + ": " + app::sentenceOf(error);
-      }
+    for (std::size_t i = next++; i < count && lines.failure().empty(); i = next++) {
+      std::string line;
+      if (!fitLine(arguments.clouds[i], options, line))
+        all_fitted = false;
+      lines.put(i, line);
       progress.update(++done);
     }
   };
@@ -113,21 +146,12 @@ int fitMany(const Arguments& arguments) {
   work();
   for (std::thread& thread : pool)
     thread.join();
-
-  std::string text;
-  int code = app::DONE;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!errors[i].empty()) {
-      std::cerr << "pcl_sq_fit: " << errors[i] << '\n';
-      code = app::FAILED;
-    } else
-      text += lines[i] + "\n";
-  }
-  if (options.output.empty())
-    std::cout << text;
-  else if (!text.empty())
-    app::writeTextFile(options.output, text);
-  return code;
+  lines.flush();
+  app::setInterruptAction({});
+  if (!lines.failure().empty())
+    throw app::Failure(lines.failure() + ".");
+  app::noteWritten(output);
+  return all_fitted ? app::DONE : app::FAILED;
 }
 
 int checkedFit(const Arguments& arguments) {
@@ -144,7 +168,12 @@ int checkedFit(const Arguments& arguments) {
     throw app::UsageError("--grasps cannot respect a taper; leave --taper out.");
   if (arguments.grasps > 0)
     app::checkGraspOptions(arguments.grasp_options);
+  for (const std::string& cloud : arguments.clouds)
+    app::claimInput(cloud);
+  app::claimInput(options.mask);
   app::checkModelOptions(options);
+  if (arguments.jsonl && options.output.empty())
+    app::claimOutput("--jsonl", "-");
   return arguments.jsonl ? fitMany(arguments) : fitOne(arguments);
 }
 
@@ -159,12 +188,16 @@ int main(int argc, char** argv) {
       DESCRIPTION,
       EXAMPLES,
       [&](CLI::App& cli) {
-        cli.add_option("cloud", arguments.clouds, "Point clouds")
+        cli.add_option("cloud", arguments.clouds, "Point clouds; -: standard input")
             ->required()
             ->type_name("FILE...");
         cli.add_flag("--jsonl",
                      arguments.jsonl,
-                     "One JSON line per cloud, on stdout or in -o; clouds in parallel");
+                     "One JSON line per cloud, on standard output or in -o, in the "
+                     "order of the clouds; each is added as soon as it is done, so "
+                     "that Ctrl-C keeps those; what fails has an \"error\" instead of "
+                     "a model. Clouds in parallel");
+        app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
         app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",

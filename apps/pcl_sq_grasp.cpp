@@ -26,21 +26,31 @@ struct Input {
   std::optional<app::LoadedCloud> cloud; ///< the whole scene
 };
 
+/** \brief Whether the input is a model file; on standard input its first character
+ * tells. */
+bool isModel(const std::string& path) {
+  if (path != "-" && path != "/dev/stdin")
+    return app::extensionOf(path) == ".json";
+  const std::string text = app::readFile(path);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{';
+}
+
 Input loadInput(const std::string& path,
                 const std::string& cloud_path,
                 const app::ModelOptions& model_options) {
   Input input;
-  if (app::extensionOf(path) == ".json") {
+  if (isModel(path)) {
     std::string why;
-    if (!fromJson(app::readFile(path), input.file, &why))
-      throw app::Failure("'" + path + "' is not a model: " + why + ".");
+    if (!loadModel(path, input.file, &why))
+      throw app::Failure(why + ".");
     if (!cloud_path.empty())
-      input.cloud = app::loadCloud(cloud_path);
+      input.cloud = app::loadCloud(cloud_path, model_options.cloud);
     return input;
   }
   app::StageLine line;
   line.show(app::wordsFor("load"));
-  input.cloud = app::loadCloud(path);
+  input.cloud = app::loadCloud(path, model_options.cloud);
   app::ModelOptions options = model_options;
   options.estimation.progress = [&line](const std::string& stage, double share) {
     line.show(app::wordsFor(stage), share);
@@ -56,6 +66,8 @@ int plan(const std::string& input_path,
          const app::ModelOptions& model_options,
          app::GraspOptions& options) {
   options.frame = model_options.frame;
+  app::claimInput(input_path);
+  app::claimInput(cloud_path);
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
   const Input input = loadInput(input_path, cloud_path, model_options);
@@ -97,7 +109,8 @@ int main(int argc, char** argv) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
             ->type_name("FILE")
             ->check(app::existingFile());
-        cli.add_option("input", input_path, "Model (JSON) or point cloud")
+        cli.add_option(
+               "input", input_path, "Model (JSON) or point cloud; -: standard input")
             ->required()
             ->type_name("FILE");
         app::addGraspOutputOptions(cli, options);
@@ -106,6 +119,7 @@ int main(int argc, char** argv) {
                        cloud_path,
                        "The scene of a model file: what was seen, what is in the way")
             ->type_name("FILE");
+        app::addCloudOptions(cli, model_options.cloud);
         app::addViewOptions(cli, model_options);
         cli.add_option(
                "--roi", model_options.roi, "Object in the image of a cloud [px]")

@@ -2,12 +2,12 @@
 // Stereo pairs of procedural objects with the exact truth.
 #include "app.h"
 #include "files.h"
+#include "image_file.h"
 #include "mesh_reader.h"
 #include "truth.h"
 #include "value_checks.h"
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -117,37 +117,27 @@ void writeProjections(cv::FileStorage& out, const StereoRig& rig) {
 void writeCalibration(const std::string& path,
                       const StereoRig& ideal,
                       const StereoRig* raw) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    cv::FileStorage out(temporary, cv::FileStorage::WRITE);
-    if (!out.isOpened())
-      throw Failure("cannot write '" + path + "'.");
-    out << "image_width" << ideal.left.width << "image_height" << ideal.left.height;
-    if (raw != nullptr) {
-      const Eigen::Matrix3d relative =
-          raw->right.rotation * raw->left.rotation.transpose();
-      const Eigen::Vector3d t =
-          raw->right.rotation * (raw->left.position - raw->right.position);
-      out << "M1" << matrix(cameraMatrix(raw->left)) << "D1"
-          << cv::Mat(raw->left.distortion, true).reshape(1, 1) << "M2"
-          << matrix(cameraMatrix(raw->right)) << "D2"
-          << cv::Mat(raw->right.distortion, true).reshape(1, 1) << "R"
-          << matrix(relative) << "T" << matrix(t);
-      // this rectification leads to the ideal rig, in whose frame the truth is
-      out << "R1" << matrix(raw->left.rotation.transpose()) << "R2"
-          << matrix(raw->right.rotation.transpose());
-    }
-    writeProjections(out, ideal);
-  });
+  cv::FileStorage out(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+  out << "image_width" << ideal.left.width << "image_height" << ideal.left.height;
+  if (raw != nullptr) {
+    const Eigen::Matrix3d relative =
+        raw->right.rotation * raw->left.rotation.transpose();
+    const Eigen::Vector3d t =
+        raw->right.rotation * (raw->left.position - raw->right.position);
+    out << "M1" << matrix(cameraMatrix(raw->left)) << "D1"
+        << cv::Mat(raw->left.distortion, true).reshape(1, 1) << "M2"
+        << matrix(cameraMatrix(raw->right)) << "D2"
+        << cv::Mat(raw->right.distortion, true).reshape(1, 1) << "R" << matrix(relative)
+        << "T" << matrix(t);
+    // this rectification leads to the ideal rig, in whose frame the truth is
+    out << "R1" << matrix(raw->left.rotation.transpose()) << "R2"
+        << matrix(raw->right.rotation.transpose());
+  }
+  writeProjections(out, ideal);
+  writeOutput(path, out.releaseAndGetString());
 }
 
-void writeImage(const std::string& path, const cv::Mat& image) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    if (!cv::imwrite(temporary, image))
-      throw Failure("cannot write '" + path + "'.");
-  });
-}
-
-void writeImage(const std::string& path, RenderedImage image) {
+void writeRendered(const std::string& path, RenderedImage image) {
   writeImage(path, cv::Mat(image.height, image.width, CV_8UC3, image.bgr.data()));
 }
 
@@ -194,6 +184,8 @@ int work(const Options& o) {
     throw UsageError("give one scene or --mesh FILE.");
   if (o.offset.size() != 2)
     throw UsageError("--offset needs two numbers: X,Y.");
+  claimInput(o.mesh_path);
+  claimFolder(o.folder);
   SceneObject object = o.mesh_path.empty()
                            ? makeObject(o.scene)
                            : makeObject(readMesh(o.mesh_path), o.up[0], o.mesh_unit);
@@ -213,21 +205,31 @@ int work(const Options& o) {
     throw Failure(
         "the object is not in sight; change --distance, --offset or --pitch.");
 
-  std::error_code error;
-  std::filesystem::create_directories(o.folder, error);
+  makeFolder(o.folder);
   const std::string folder = o.folder + "/";
-  checkWritable(folder + "truth.json");
+  std::vector<std::string> names = {"left.png",
+                                    "right.png",
+                                    "calib.yml",
+                                    "disparity.pfm",
+                                    "mask.png",
+                                    "mesh.ply",
+                                    "truth.json"};
+  if (o.distortion)
+    names.insert(names.end(), {"raw_left.png", "raw_right.png", "calib_raw.yml"});
+  for (const std::string& name : names)
+    claimOutput("--out", folder + name);
   Progress progress("Rendering", o.distortion ? 4 : 2);
-  writeImage(folder + "left.png", render(scene, mesh, rig.left, 0, o.threads));
+  writeRendered(folder + "left.png", render(scene, mesh, rig.left, 0, o.threads));
   progress.update(1);
-  writeImage(folder + "right.png", render(scene, mesh, rig.right, 1, o.threads));
+  writeRendered(folder + "right.png", render(scene, mesh, rig.right, 1, o.threads));
   progress.update(2);
   writeCalibration(folder + "calib.yml", rig, nullptr);
   if (o.distortion) {
     const StereoRig raw = distorted(rig);
-    writeImage(folder + "raw_left.png", render(scene, mesh, raw.left, 2, o.threads));
+    writeRendered(folder + "raw_left.png", render(scene, mesh, raw.left, 2, o.threads));
     progress.update(3);
-    writeImage(folder + "raw_right.png", render(scene, mesh, raw.right, 3, o.threads));
+    writeRendered(folder + "raw_right.png",
+                  render(scene, mesh, raw.right, 3, o.threads));
     progress.update(4);
     writeCalibration(folder + "calib_raw.yml", rig, &raw);
   }
@@ -242,11 +244,11 @@ int work(const Options& o) {
           seen.height, seen.width, CV_8U, const_cast<std::uint8_t*>(seen.mask.data())));
   writePly(folder + "mesh.ply", object.mesh);
   const SceneTruth truth = makeTruth(o, object, scene, rig, seen);
-  writeTextFile(folder + "truth.json", toJson(truth));
+  writeOutput(folder + "truth.json", toJson(truth));
   if (!quiet())
     std::cout << truth.scene << ": " << seen.visible_pixels << " px in the box "
               << seen.roi.x << ',' << seen.roi.y << ',' << seen.roi.width << ','
-              << seen.roi.height << "; written to " << o.folder << '\n';
+              << seen.roi.height << '\n';
   return DONE;
 }
 

@@ -4,6 +4,7 @@
 #include "cloud_picture.h"
 #include "files.h"
 #include "frame_options.h"
+#include "offset.h"
 #include "value_checks.h"
 
 #include "pcl_sq/model_io.h"
@@ -30,6 +31,7 @@ const char* const EXAMPLES =
 struct Arguments {
   std::string model, cloud, output, size = "1280x960", view = "iso";
   int turntable = 0;
+  app::CloudOptions cloud_options;
   app::FrameOptions frame;
   SnapshotOptions options;
 };
@@ -46,7 +48,8 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("MODEL.json");
   cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
       ->type_name("FILE");
-  cli.add_option("-o,--output", a.output, "Picture, ends in .png")
+  app::addCloudOptions(cli, a.cloud_options);
+  cli.add_option("-o,--output", a.output, "Picture, ends in .png; -: standard output")
       ->type_name("FILE")
       ->required();
   cli.add_option("--size", a.size, "Width x height [px], 16 to 4096 each")
@@ -91,10 +94,12 @@ void check(Arguments& a) {
   std::string why;
   if (!viewFromString(a.view, &a.options.view) || !a.options.isValid(&why))
     throw app::UsageError(why + ".");
-  if (app::extensionOf(a.output) != ".png")
-    throw app::UsageError("'" + a.output +
-                          "' does not end in .png, the one format of pictures.");
-  app::checkWritable(a.output);
+  app::claimInput(a.model);
+  app::claimInput(a.cloud);
+  if (a.turntable > 0 && app::extensionOf(a.output) != ".png")
+    throw app::UsageError("--turntable writes several files; give --output a name that "
+                          "ends in .png.");
+  app::claimOutput("--output", a.output, {".png"});
 }
 
 /** \brief Three numbers that pcl_sq_fit reports: "up", "sensor"; if it does. */
@@ -109,23 +114,31 @@ std::optional<Eigen::Vector3d> reported(const ModelFile& file,
   return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
-app::LoadedCloud readCloud(const std::string& path) {
+app::LoadedCloud readCloud(const Arguments& a) {
   app::StageLine line;
   line.show("reading");
-  return app::loadCloud(path);
+  return app::loadCloud(a.cloud, a.cloud_options);
 }
 
 int takePictures(const Arguments& a) {
   SnapshotRenderer renderer(a.options);
+  std::optional<app::LoadedCloud> cloud;
+  if (!a.cloud.empty())
+    cloud = readCloud(a);
   if (!a.model.empty()) {
     ModelFile file;
     std::string why;
-    if (!fromJson(app::readFile(a.model), file, &why, TaperedParts::READ))
-      throw app::Failure("'" + a.model + "' is no model file: " + why);
+    if (!loadModel(a.model, file, &why, TaperedParts::READ))
+      throw app::Failure(why + ".");
+    // pictures are made of floats
+    const Eigen::Vector3d offset = cloud ? cloud->offset : app::offsetOf(file.model);
+    file.model = app::moved(std::move(file.model), -offset);
     app::addModel(renderer, file);
     SnapshotOptions options = a.options;
     if (!options.sensor)
       options.sensor = reported(file, "sensor");
+    if (options.sensor)
+      *options.sensor -= offset;
     if (a.frame.up.empty() && a.frame.table.empty()) {
       if (const auto up = reported(file, "up"); up && up->norm() > 1e-6)
         options.up = *up;
@@ -135,15 +148,19 @@ int takePictures(const Arguments& a) {
     }
     renderer.setOptions(options);
   }
-  if (!a.cloud.empty())
-    app::addCloud(renderer, readCloud(a.cloud));
+  if (cloud)
+    app::addCloud(renderer, *cloud);
   if (a.turntable == 0) {
     renderer.save(a.output);
+    app::noteWritten(a.output);
     return app::DONE;
   }
   app::Progress progress("turntable", static_cast<std::size_t>(a.turntable));
-  renderer.saveTurntable(
+  const std::vector<std::string> names = renderer.saveTurntable(
       a.output, a.turntable, [&](std::size_t done) { progress.update(done); });
+  app::noteWritten(names.front());
+  if (names.size() > 1)
+    app::noteWritten(names.size() > 2 ? "... " + names.back() : names.back());
   return app::DONE;
 }
 

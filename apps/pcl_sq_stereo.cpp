@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo pair (or depth image) in, union of superquadrics out.
 #include "app.h"
+#include "cloud_bytes.h"
 #include "files.h"
+#include "image_file.h"
 #include "model_options.h"
 #include "panel.h"
 #include "pcl_sq/stereo/histogram_plot.h"
@@ -10,12 +12,9 @@
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
+#include <pcl/common/io.h>
 
 #include <cmath>
-#include <iostream>
 #include <limits>
 
 using namespace pcl_sq;
@@ -45,29 +44,18 @@ void addOutputs(CLI::App& cli, Outputs& o) {
 }
 
 void checkOutputs(const Outputs& o) {
-  for (const std::string& path :
-       {o.cloud, o.object_cloud, o.disparity, o.panel, o.mask, o.histogram})
-    if (!path.empty())
-      checkWritable(path);
-  for (const std::string& path : {o.cloud, o.object_cloud})
-    if (!path.empty() && extensionOf(path) != ".pcd" && extensionOf(path) != ".ply")
-      throw UsageError("'" + path + "': a cloud is written as .pcd or .ply.");
-  if (!o.disparity.empty() && extensionOf(o.disparity) != ".png" &&
-      extensionOf(o.disparity) != ".pfm")
-    throw UsageError("'" + o.disparity + "': disparities are written as .png or .pfm.");
-}
-
-void writeImage(const std::string& path, const cv::Mat& image) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    if (!cv::imwrite(temporary, image))
-      throw Failure("cannot write '" + path + "'; is its ending that of an image?");
-  });
+  claimOutput("--cloud", o.cloud, {".pcd", ".ply"});
+  claimOutput("--object-cloud", o.object_cloud, {".pcd", ".ply"});
+  claimOutput("--disparity", o.disparity, {".png", ".pfm"});
+  claimImage("--panel", o.panel);
+  claimImage("--write-mask", o.mask);
+  claimImage("--histogram", o.histogram);
 }
 
 void writeDisparity(const std::string& path, const cv::Mat& disparity) {
   const cv::Mat missing = disparity != disparity;
   cv::Mat out = disparity.clone();
-  if (extensionOf(path) == ".pfm")
+  if (formatOf(path, ".png") == ".pfm")
     out.setTo(std::numeric_limits<float>::infinity(), missing);
   else {
     out.setTo(0.0f, missing);
@@ -76,15 +64,10 @@ void writeDisparity(const std::string& path, const cv::Mat& disparity) {
   writeImage(path, out);
 }
 
-template <typename Cloud>
-void writeCloud(const std::string& path, const Cloud& cloud) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    const int failed = extensionOf(path) == ".ply"
-                           ? pcl::io::savePLYFileBinary(temporary, cloud)
-                           : pcl::io::savePCDFileBinaryCompressed(temporary, cloud);
-    if (failed != 0)
-      throw Failure("cannot write '" + path + "'.");
-  });
+void writeCloud(const std::string& path,
+                const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
+  writeOutput(path,
+              formatOf(path, ".pcd") == ".ply" ? plyBytes(cloud) : pcdBytes(cloud));
 }
 
 /** \brief The stereo cloud in the programs' point type; only \a keep's points stay
@@ -250,6 +233,11 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
+  for (const std::string& input :
+       {front_options.left, front_options.right, front_options.depth, model.mask})
+    claimInput(input);
+  for (const std::string& calibration : front_options.calib)
+    claimInput(calibration);
   checkModelOptions(model);
   if (!front_options.depth.empty() && !outputs.disparity.empty())
     throw UsageError("a depth image has no disparity to write; leave out --disparity.");
@@ -296,12 +284,13 @@ int main(int argc, char** argv) {
       "Fits a union of superquadrics to the object in a stereo pair.",
       "  pcl_sq_stereo left.png right.png --calib calib.yml -o model.json "
       "--panel panel.png\n"
-      "  pcl_sq_stereo im0.png im1.png --calib calib.txt --roi 340,110,58,58 "
+      "  pcl_sq_stereo im0.png im1.png --calib calib.txt --roi 481,179,62,407 "
       "--segment grabcut\n"
       "  pcl_sq_stereo left.png right.png --calib calib.yml --matcher sgbm "
       "--click 512,380 --cloud scene.pcd\n"
       "  pcl_sq_stereo left.png right.png --calib left.yaml right.yaml -o model.json\n"
-      "  pcl_sq_stereo left.png right.png --intrinsics 500,500,320,240 --baseline .12\n"
+      "  pcl_sq_stereo left.png right.png --intrinsics 1310,1310,511.5,383.5 "
+      "--baseline .12\n"
       "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
       [&](CLI::App& cli) {
         addFrontOptions(cli, front);

@@ -24,7 +24,7 @@ PROJECT_NUMBER = ${PROJECT_VERSION}\n")
   add_custom_command(OUTPUT "${generated}/reference/html/index.html"
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${generated}/reference"
     COMMAND Doxygen::doxygen "${generated}/Doxyfile"
-    DEPENDS ${described} README.md benchmarks/README.md "${generated}/Doxyfile"
+    DEPENDS ${described} README.md CONTRIBUTING.md benchmarks/README.md "${generated}/Doxyfile"
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" COMMENT "API reference" VERBATIM)
   add_custom_target(pcl_sq_reference ALL DEPENDS "${generated}/reference/html/index.html")
   install(DIRECTORY "${generated}/reference/html" DESTINATION "${doc_dir}" COMPONENT doc)

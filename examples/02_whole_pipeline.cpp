@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's chain on a cloud as a camera sees it: object on a table -> voxels ->
-// prisms
-// -> superquadrics -> grasp points.
+// A cloud as a camera sees it: object on a table -> its points -> superquadrics ->
+// grasp points.
 #include <pcl_sq/object_surface_estimation.h>
 #include <pcl_sq/tabletop_segmentation.h>
 
@@ -51,10 +50,8 @@ int main() {
     std::cerr << estimation.getReport().failure << '\n';
     return 1;
   }
-  for (const pcl_sq::Superquadric& part : model.parts)
-    std::cout << "superquadric at " << part.center.transpose() << " m, semi-axes "
-              << part.semi_axes.transpose() << " m\n";
-  std::cout << estimation.getReport().grasp_indices.size()
+  std::cout << model << '\n'
+            << estimation.getReport().grasp_indices.size()
             << " points where a gripper may touch\n";
   return 0;
 }

@@ -14,7 +14,6 @@ int main(int argc, char** argv) {
     return 2;
 
   pcl_sq::ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
-  estimation.setOptions(pcl_sq::EstimationOptions::best());
   estimation.setInputCloud(cloud);
   pcl_sq::MultiSuperquadric object;
   if (!estimation.estimate(object))

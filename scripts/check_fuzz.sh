@@ -6,11 +6,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
-build=build-fuzz
+build="build-fuzz"
 ./scripts/install_deps.sh clang libclang-rt-14-dev llvm-14
 if [ ! -f "$build/build.ninja" ]; then
   CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DPCL_SQ_BUILD_FUZZERS=ON \
-    -DPCL_SQ_BUILD_TESTS=OFF -DPCL_SQ_BUILD_EXAMPLES=OFF >/dev/null
+    -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DPCL_SQ_BUILD_TESTS=OFF \
+    -DPCL_SQ_BUILD_EXAMPLES=OFF >/dev/null
 fi
 ninja -C "$build" pcl_sq_fuzzers
 mkdir -p "$build/findings"

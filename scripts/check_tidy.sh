@@ -4,7 +4,7 @@
 # two cores: check_tidy.sh [FILE-PATTERN]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=build-tidy
+build="build-tidy"
 ./scripts/install_deps.sh clang clang-tidy-14 libomp-14-dev
 if [ ! -f "$build/build.ninja" ]; then
   cmake --preset tidy >/dev/null
@@ -12,8 +12,10 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 # headers that cmake generates exist after configuring: nothing has to be built
-run-clang-tidy-14 -quiet -p "$build" "${1:-/(src|apps|examples)/}" \
-  >"$log" 2>/dev/null || true
+if ! run-clang-tidy-14 -quiet -p "$build" "${1:-/(src|apps|examples)/}" >"$log" 2>&1; then
+  tail -n 40 "$log" >&2
+  exit 1
+fi
 if grep -E '(warning|error): ' "$log" | sort -u | grep .; then
   exit 1
 fi

@@ -64,8 +64,8 @@ Look lookFrom(const Eigen::Vector3d& place,
   const int cells = std::max(
       1,
       static_cast<int>(std::sqrt(static_cast<double>(points.cols()) / POINTS_A_CELL)));
-  std::vector<std::vector<Eigen::Vector3d>> pixels(
-      static_cast<std::size_t>(cells * cells));
+  std::vector<std::vector<Eigen::Vector3d>> pixels(static_cast<std::size_t>(cells) *
+                                                   static_cast<std::size_t>(cells));
   double inner = 0.0, outer = 0.0;
   int inner_count = 0, outer_count = 0;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {

@@ -3,6 +3,8 @@
 
 #include "surface_statistics.h"
 
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -108,3 +110,5 @@ double surfaceNoise(const MultiSuperquadric& model,
 } // namespace detail
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(template class, GraspPointFilter)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/gripper.h"
 
+#include <utility>
+
 namespace pcl_sq {
 
 namespace {
@@ -44,23 +46,25 @@ std::vector<Gripper> presets() {
 } // namespace
 
 bool Gripper::isValid(std::string* why) const {
-  const auto fail = [why](const char* sentence) {
+  const auto fail = [why](const std::string& sentence) {
     if (why)
       *why = sentence;
     return false;
   };
   if (fingers != 2 && fingers != 3)
     return fail("a gripper has two or three fingers");
-  for (const double size : {max_opening,
-                            finger_length,
-                            finger_width,
-                            finger_thickness,
-                            pad_length,
-                            palm_width,
-                            palm_depth,
-                            palm_height})
-    if (!std::isfinite(size) || size <= 0.0 || size > 2.0)
-      return fail("a size is not between 0 and 2 m");
+  const std::pair<const char*, double> sizes[] = {
+      {"max_opening", max_opening},
+      {"finger_length", finger_length},
+      {"finger_width", finger_width},
+      {"finger_thickness", finger_thickness},
+      {"pad_length", pad_length},
+      {"palm_width", palm_width},
+      {"palm_depth", palm_depth},
+      {"palm_height", palm_height}};
+  for (const auto& [key, size] : sizes)
+    if (!(size >= 1e-4 && size <= 2.0))
+      return fail(std::string(key) + " is not between 0.1 mm and 2 m");
   if (!(min_opening >= 0.0) || min_opening >= max_opening)
     return fail("min_opening is not between 0 and max_opening");
   if (pad_length > finger_length)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether the pixels of a depth image err each by itself. Matching over windows makes
-// neighbours err alike and fattens outlines; where errors are independent, no window was
-// wider than a pixel and the outline is as sharp as the image.
+// neighbours err alike and fattens outlines; where errors are independent, no window
+// was wider than a pixel and the outline is as sharp as the image.
 #include "depth_patch.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int NEAR = 1, FAR = 3;       ///< pixels apart
-constexpr std::size_t FEWEST = 200;    ///< differences of each that tell
-constexpr std::size_t WANTED = 20000;  ///< more tell nothing new
+constexpr int NEAR = 1, FAR = 3;      ///< pixels apart
+constexpr std::size_t FEWEST = 200;   ///< differences of each that tell
+constexpr std::size_t WANTED = 20000; ///< more tell nothing new
 /** \brief Of independent errors both differences vary alike; where windows are three
  * pixels wide, each shares two thirds with the next, and the near ones have a third of
  * the far ones' variance. The middle, as a ratio of deviations. */
@@ -49,8 +49,7 @@ bool errorsAreIndependent(const Observation& o, const TableModel& plane) {
       if (!all)
         continue;
       const double middle = 2.0 * inverse(x, y);
-      off[0].push_back(
-          std::abs(inverse(x - NEAR, y) + inverse(x + NEAR, y) - middle));
+      off[0].push_back(std::abs(inverse(x - NEAR, y) + inverse(x + NEAR, y) - middle));
       off[1].push_back(std::abs(inverse(x - FAR, y) + inverse(x + FAR, y) - middle));
     }
   return off[0].size() >= FEWEST && medianOf(off[0]) > ALIKE * medianOf(off[1]);

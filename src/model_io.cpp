@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_sq {
 
@@ -29,6 +30,13 @@ Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+/** \brief Adds a number; one that is not finite is left out, for JSON has no word for
+ * it and readers take what is missing for unknown. */
+void addFinite(Json& object, const char* key, double number) {
+  if (std::isfinite(number))
+    object[key] = number;
+}
+
 Json partToJson(const Superquadric& s,
                 const Taper& taper,
                 const PartStatistics& statistics) {
@@ -42,8 +50,8 @@ Json partToJson(const Superquadric& s,
   if (isTapered(taper))
     json["taper"] = taper;
   json["points"] = statistics.points;
-  json["distortion"] = statistics.distortion;
-  json["rms_distance"] = statistics.rms_distance;
+  addFinite(json, "distortion", statistics.distortion);
+  addFinite(json, "rms_distance", statistics.rms_distance);
   json["termination"] = statistics.termination;
   return json;
 }
@@ -76,7 +84,10 @@ Eigen::Matrix<double, N, 1> numbers(const Json& array, const char* name) {
 
 double optionalNumber(const Json& object, const char* key) {
   const auto it = object.find(key);
-  return it != object.end() && it->is_number() ? it->get<double>() : 0.0;
+  const double number = it != object.end() && it->is_number() ? it->get<double>() : 0.0;
+  if (!(std::abs(number) <= 1e20)) // as the model's own sizes
+    throw Refusal{std::string("\"") + key + "\" is larger than 1e20"};
+  return number;
 }
 
 std::size_t optionalCount(const Json& object, const char* key) {
@@ -121,7 +132,9 @@ Taper taperFromJson(const Json& part, const Superquadric& shape, std::size_t ind
 /** \brief The version, if it is one that is known. */
 int versionFromJson(const Json& json) {
   const Json& version = member(json, "version");
-  const long long number = version.is_number_integer() ? version.get<long long>() : 0;
+  if (!version.is_number_integer())
+    throw Refusal{"\"version\" is not a whole number"};
+  const auto number = version.get<long long>();
   if (number < VERSION || number > TABLE_VERSION)
     throw Refusal{"version " + version.dump() +
                   " of the schema is not known, 1 to 3 are"};
@@ -228,7 +241,7 @@ std::string toJson(const ModelFile& file, int indent) {
   const bool tapered = std::any_of(file.tapers.begin(), file.tapers.end(), isTapered);
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
-    timings[stage] = ms;
+    addFinite(timings, stage.c_str(), ms);
   Json json = {{"schema", SCHEMA},
                {"version",
                 file.table ? TABLE_VERSION
@@ -236,15 +249,14 @@ std::string toJson(const ModelFile& file, int indent) {
                            : VERSION},
                {"unit", "m"},
                {"frame", file.frame},
-               {"superquadrics", parts},
-               {"distortion", file.distortion},
-               {"rms_distance", file.rms_distance},
-               {"input",
-                {{"path", file.input_path},
-                 {"points", file.input_points},
-                 {"finite_points", file.finite_points}}},
-               {"options", Json::parse(file.options_json)},
-               {"timings_ms", timings}};
+               {"superquadrics", parts}};
+  addFinite(json, "distortion", file.distortion);
+  addFinite(json, "rms_distance", file.rms_distance);
+  json["input"] = {{"path", file.input_path},
+                   {"points", file.input_points},
+                   {"finite_points", file.finite_points}};
+  json["options"] = Json::parse(file.options_json);
+  json["timings_ms"] = timings;
   if (file.table)
     json["table"] = *file.table;
   const Json extra = Json::parse(file.extra_json);

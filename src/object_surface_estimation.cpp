@@ -12,6 +12,12 @@ namespace pcl_sq::detail {
 
 namespace {
 
+bool fail(const std::string& sentence, EstimationReport& report) {
+  report.failure = sentence;
+  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
+  return false;
+}
+
 /** \brief One estimation: the input, the settings and what is found. */
 class SurfaceEstimator {
 public:
@@ -24,7 +30,7 @@ public:
   bool estimate(MultiSuperquadric& model);
 
 private:
-  bool fail(const std::string& sentence);
+  bool fail(const std::string& sentence) { return detail::fail(sentence, report_); }
   bool crop();
   bool observe();
   bool decompose();
@@ -74,12 +80,6 @@ bool SurfaceEstimator::estimate(MultiSuperquadric& model) {
       return true;
     });
   return found;
-}
-
-bool SurfaceEstimator::fail(const std::string& sentence) {
-  report_.failure = sentence;
-  PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n", sentence.c_str());
-  return false;
 }
 
 bool SurfaceEstimator::crop() {
@@ -150,7 +150,8 @@ bool SurfaceEstimator::fitObject(MultiSuperquadric& model) {
   ObjectFit fit = pcl_sq::fitObject(report_.view, options);
   if (fit.model.empty())
     return fail(std::to_string(report_.view.points.cols()) +
-                " points give no superquadric: they must span a volume");
+                " points give no superquadric: they must span a volume; give points of "
+                "more than one side of the object");
   model = fit.model;
   if (const int wanted = options.parts; int(model.size()) < wanted)
     report_.notes.push_back(std::to_string(wanted) +
@@ -239,9 +240,10 @@ bool SurfaceEstimator::fitParts(MultiSuperquadric& model) {
                               "points are in none: fewer divisions hold more points");
     return true;
   }
-  return fail(std::to_string(object_.size()) + " points give no superquadric (" +
-              toString(report_.parts.front().fit.termination) +
-              "): at least ten are needed, and they must span a volume");
+  return fail(std::to_string(object_.size()) +
+              " points give no superquadric: at least ten "
+              "are needed, and they must span a volume; give points of more than one "
+              "side of the object");
 }
 
 void SurfaceEstimator::evaluate(const MultiSuperquadric& model) {
@@ -264,12 +266,26 @@ void SurfaceEstimator::findGraspPoints(const MultiSuperquadric& model) {
 
 } // namespace
 
-bool estimateSurface(const EstimationInput& input,
+bool estimateSurface(const EstimationInput* input,
                      const EstimationOptions& options,
                      unsigned int threads,
                      MultiSuperquadric& model,
                      EstimationReport& report) {
-  return SurfaceEstimator(input, options, threads, report).estimate(model);
+  model = {};
+  report = {};
+  if (!input)
+    return fail("there is no input cloud; call setInputCloud first", report);
+  return SurfaceEstimator(*input, options, threads, report).estimate(model);
+}
+
+void setOptions(const EstimationOptions& options, EstimationOptions& target) {
+  std::string why;
+  if (options.isValid(&why))
+    target = options;
+  else
+    PCL_ERROR("[pcl_sq::ObjectSurfaceEstimation::setOptions] %s; the options stay as "
+              "they were.\n",
+              why.c_str());
 }
 
 } // namespace pcl_sq::detail

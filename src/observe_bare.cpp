@@ -121,7 +121,9 @@ bool observeBare(Observation& o, std::string& why) {
       if (o.finite(c))
         columns.push_back(c);
   if (columns.size() < std::size_t(MIN_POINTS)) {
-    why = "fewer than " + std::to_string(MIN_POINTS) + " finite points";
+    why = "fewer than " + std::to_string(MIN_POINTS) +
+          " finite points are the object's; give more "
+          "of it";
     return false;
   }
   shuffle(o, columns);
@@ -158,8 +160,9 @@ bool observeBare(Observation& o, std::string& why) {
       viewpoint.reset();
   }
   if (viewpoint && !out.viewpoint_known)
-    out.notes.push_back("no viewpoint is given; the points show one side of something, "
-                        "and the camera is taken to be on it; give its place if it is another");
+    out.notes.push_back(
+        "no viewpoint is given; the points show one side of something, "
+        "and the camera is taken to be on it; give its place if it is another");
   if (!viewpoint)
     return true;
   const Eigen::Vector3d mean = out.points.rowwise().mean();

@@ -86,7 +86,7 @@ bool observeImage(Observation& o, std::string& why) {
   const CellRect box = boundingRect(out.pixels);
   if (box.area() == 0) {
     why = has_mask ? "the mask is empty; mark the object's pixels"
-                   : "the object has no finite point";
+                   : "the object has no finite point; give another region";
     return false;
   }
   if (!has_mask)
@@ -101,7 +101,8 @@ bool observeImage(Observation& o, std::string& why) {
   choosePoints(o, box, patch, rim);
   if (out.points.cols() < MIN_IMAGE_POINTS) {
     why = "fewer than " + std::to_string(MIN_IMAGE_POINTS) + " points lie under the " +
-          (has_mask ? "mask; it must cover the object" : "object's pixels");
+          (has_mask ? "mask; it must cover the object"
+                    : "object's pixels; give a larger region, or a cloud from nearer");
     return false;
   }
   measure(out);

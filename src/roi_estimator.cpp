@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/roi_estimator.h"
 
+#include <pcl/point_types.h>
+
 namespace pcl_sq {
 
 void PixelRays::add(double pixel, double slope) {
@@ -32,3 +34,5 @@ bool PixelRays::isValid() const {
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(template class, RoiEstimator)

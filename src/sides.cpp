@@ -20,12 +20,10 @@ double extent(const Support& support, const Eigen::Vector3d& n) {
 }
 
 /** \brief The box with its third side along \a axis that has the smallest section. */
-OrientedBox smallestAlong(const Support& support,
-                          const Eigen::Matrix3d& axes,
-                          double first_angle) {
+OrientedBox
+smallestAlong(const Support& support, const Eigen::Matrix3d& axes, double first_angle) {
   const auto turned = [&](double angle) -> Eigen::Matrix3d {
-    return axes *
-           Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return axes * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   };
   const auto area = [&](double angle) {
     const Eigen::Matrix3d r = turned(angle);

@@ -74,18 +74,22 @@ private:
 
 /** \brief Finds table and thing in an organized cloud in its camera's frame.
  * \param[in] region pixels of a box around the thing, or nullptr: the largest thing
- * \param[in] size of that box over the depth */
+ * \param[in] size of that box over the depth
+ * \param[in] loose whether the largest thing in the region will do where none fits it
+ */
 [[nodiscard]] Standing findInImage(const CloudPoints& points,
                                    int width,
                                    int height,
                                    const ViewOptions& view,
                                    const CellMask* region = nullptr,
-                                   float size = 0.0F);
+                                   float size = 0.0F,
+                                   bool loose = false);
 
 /** \brief The thing that a region was drawn around: pixels above the table that hang
  * together and whose box is the region's. Neighbours, what stands before or behind, and
  * the table itself are left out. */
-[[nodiscard]] Standing findInRegion(const Observation& o, const CellMask& region);
+[[nodiscard]] Standing
+findInRegion(const Observation& o, const CellMask& region, bool loose = false);
 
 constexpr std::size_t MIN_TABLE_SCENE = 30; ///< points
 

@@ -38,7 +38,7 @@ bool findOnImage(const CloudPoints& points,
       region.cells[i] = candidates[i] && seen.col(Eigen::Index(i)).allFinite();
     const std::vector<int> none;
     const Observation o{seen, width, height, none, moved_view, observed};
-    found = findInRegion(o, region);
+    found = findInRegion(o, region, true);
   }
   found.table = pose.toCloud(found.table);
   return true;
@@ -77,7 +77,9 @@ bool findTabletopObject(const CloudPoints& points,
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     finite += points.col(i).allFinite();
   if (finite < MIN_TABLE_SCENE)
-    return fail("there are too few finite points for a table and an object");
+    return fail(
+        "there are too few finite points for a table and an object; leave out the "
+        "plane removal");
   ViewOptions view;
   view.viewpoint = options.viewpoint;
   view.up = options.up;

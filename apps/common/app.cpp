@@ -4,6 +4,7 @@
 #include "help_format.h"
 #include "option_rules.h"
 #include "parse_sentences.h"
+#include "process.h"
 #include "text.h"
 
 #include "pcl_sq/config.h"
@@ -57,27 +58,14 @@ bool parse(CLI::App& cli, int argc, char** argv, int& code) {
   return false;
 }
 
-} // namespace
-
-std::string sentenceOf(const std::exception& error) {
-  if (dynamic_cast<const Failure*>(&error) != nullptr ||
-      dynamic_cast<const UsageError*>(&error) != nullptr ||
-      dynamic_cast<const Exception*>(&error) != nullptr)
-    return withoutPlace(error.what());
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-      dynamic_cast<const std::length_error*>(&error) != nullptr)
-    return "not enough memory for this input; crop or thin it first.";
-  return "this input was too much for the program, which is an error of ours; please "
-         "report it with the command line and the input.";
-}
-
-int run(int argc,
-        char** argv,
-        const std::string& name,
-        const std::string& description,
-        const std::string& examples,
-        const std::function<void(CLI::App&)>& configure,
-        const std::function<int()>& body) {
+/** \brief run() without the care for signals and standard output. */
+int runGuarded(int argc,
+               char** argv,
+               const std::string& name,
+               const std::string& description,
+               const std::string& examples,
+               const std::function<void(CLI::App&)>& configure,
+               const std::function<int()>& body) {
   program_name = name;
   // PCL talks of its own accord; the library's own words come with its results
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
@@ -102,6 +90,32 @@ int run(int argc,
   } catch (const std::exception& error) {
     return fail(sentenceOf(error), FAILED);
   }
+}
+
+} // namespace
+
+std::string sentenceOf(const std::exception& error) {
+  if (dynamic_cast<const Failure*>(&error) != nullptr ||
+      dynamic_cast<const UsageError*>(&error) != nullptr ||
+      dynamic_cast<const Exception*>(&error) != nullptr)
+    return withoutPlace(error.what());
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+      dynamic_cast<const std::length_error*>(&error) != nullptr)
+    return "not enough memory for this input; crop or thin it first.";
+  return "this input was too much for the program, which is an error of ours; please "
+         "report it with the command line and the input.";
+}
+
+int run(int argc,
+        char** argv,
+        const std::string& name,
+        const std::string& description,
+        const std::string& examples,
+        const std::function<void(CLI::App&)>& configure,
+        const std::function<int()>& body) {
+  beginProcess();
+  return endProcess(
+      name, runGuarded(argc, argv, name, description, examples, configure, body));
 }
 
 bool quiet() {

@@ -28,7 +28,8 @@ struct UsageError : std::runtime_error {
 std::string sentenceOf(const std::exception& error);
 
 /** \brief The frame of a main(): adds --version and -q, parses, refuses options without
- * effect, runs, and turns every error into one sentence on stderr and an exit code.
+ * effect, runs, and turns every error into one sentence on stderr and an exit
+ * code; at the end it tells which files were written.
  * \param[in] configure adds the program's own options
  * \param[in] body the work; returns an exit code */
 int run(int argc,

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 
 namespace pcl_sq::app {
@@ -85,7 +84,7 @@ void copyPoints(const Shape& shape, LoadedCloud& loaded) {
 void sampleFaces(Shape& shape, const CloudOptions& options, LoadedCloud& loaded) {
   for (const auto& triangle : shape.triangles)
     for (const std::uint32_t corner : triangle)
-      if (!(shape.points[corner].cwiseAbs().maxCoeff() <= 1e9))
+      if (!(shape.points[corner].array().abs() <= 1e9).all()) // NaN neither
         throw Failure("its vertex " + std::to_string(corner + 1) +
                       " has a coordinate that is no length in metres");
   std::vector<Eigen::Vector3d> points = sampleSurface(shape, options.samples);
@@ -100,9 +99,7 @@ void sampleFaces(Shape& shape, const CloudOptions& options, LoadedCloud& loaded)
 } // namespace
 
 Shape loadShape(const std::string& path) {
-  const std::string bytes =
-      path == "-" ? std::string(std::istreambuf_iterator<char>(std::cin), {})
-                  : readFile(path);
+  const std::string bytes = readFile(path);
   try {
     return readShape(bytes, extensionOf(path));
   } catch (const Failure& failure) {
@@ -137,7 +134,10 @@ LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
 LoadedCloud loadCloud(const std::string& path, const CloudOptions& options) {
   Shape shape = loadShape(path);
   try {
-    return makeCloud(std::move(shape), options);
+    LoadedCloud loaded = makeCloud(std::move(shape), options);
+    for (const std::string& sentence : loaded.notes)
+      note(sentence);
+    return loaded;
   } catch (const Failure& failure) {
     throw Failure("cannot read '" + printable(path) + "': " + failure.what() + ".");
   }

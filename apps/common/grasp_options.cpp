@@ -2,14 +2,12 @@
 #include "app.h"
 #include "files.h"
 #include "grasp_output.h"
+#include "gripper_file.h"
 
 #include "pcl_sq/graspit_export.h"
 #include "value_checks.h"
 
 #include <nlohmann/json.hpp>
-
-#include <map>
-#include <sstream>
 
 namespace pcl_sq::app {
 
@@ -20,47 +18,6 @@ std::string presetList() {
   for (const std::string& name : Gripper::presetNames())
     list += (list.empty() ? "" : ", ") + name;
   return list;
-}
-
-/** \brief A number of a TOML file. */
-double numberOf(const CLI::ConfigItem& item, const std::string& path) {
-  double number = 0.0;
-  if (item.inputs.size() != 1 || !parseNumber(item.inputs[0], number))
-    throw UsageError("'" + path + "': " + item.name + " is not a number");
-  return number;
-}
-
-Gripper gripperFromToml(const std::string& path) {
-  std::istringstream stream(readFile(path));
-  Gripper gripper;
-  gripper.name = path;
-  const std::map<std::string, double Gripper::*> sizes = {
-      {"min_opening", &Gripper::min_opening},
-      {"max_opening", &Gripper::max_opening},
-      {"finger_length", &Gripper::finger_length},
-      {"finger_width", &Gripper::finger_width},
-      {"finger_thickness", &Gripper::finger_thickness},
-      {"pad_length", &Gripper::pad_length},
-      {"palm_width", &Gripper::palm_width},
-      {"palm_depth", &Gripper::palm_depth},
-      {"palm_height", &Gripper::palm_height}};
-  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(stream)) {
-    if (item.name == "++" || item.name == "--") // a section begins or ends
-      continue;
-    const auto size = sizes.find(item.name);
-    if (size != sizes.end())
-      gripper.*size->second = numberOf(item, path);
-    else if (item.name == "fingers")
-      gripper.fingers = int(numberOf(item, path));
-    else if (item.name == "name" && item.inputs.size() == 1)
-      gripper.name = item.inputs[0];
-    else
-      throw UsageError("'" + path + "': '" + item.name + "' is no size of a gripper");
-  }
-  std::string why;
-  if (!gripper.isValid(&why))
-    throw UsageError("'" + path + "': " + why);
-  return gripper;
 }
 
 /** \brief The camera's place that the report of a model file tells of, if it is known.
@@ -83,16 +40,6 @@ std::optional<Eigen::Vector3d> knownSensor(const ModelFile& file) {
 GraspOptions::GraspOptions() {
   planner.count = 10;
   planner.wrench_quality = true;
-}
-
-Gripper readGripper(const std::string& preset_or_path) {
-  Gripper gripper;
-  if (Gripper::preset(preset_or_path, gripper))
-    return gripper;
-  if (extensionOf(preset_or_path) == ".toml")
-    return gripperFromToml(preset_or_path);
-  throw UsageError("there is no gripper '" + preset_or_path + "'; name one of " +
-                   presetList() + ", or a .toml file with the sizes");
 }
 
 void addGripperOptions(CLI::App& cli, GraspOptions& options) {
@@ -120,7 +67,8 @@ void addGripperOptions(CLI::App& cli, GraspOptions& options) {
 }
 
 void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
-  cli.add_option("-o,--output", options.output, "Grasps as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Grasps as JSON; -: standard output")
+      ->type_name("FILE");
   cli.add_option("--count", options.planner.count, "Most grasps to give")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
@@ -160,9 +108,10 @@ void checkGraspOptions(const GraspOptions& options) {
   (void)options.frame.tableOf(); // refuse what makes no sense before the work
   (void)options.frame.viewpointOf();
   (void)options.frame.upOf();
-  for (const std::string& path : {options.output, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  if (!options.graspit.empty())
+    claimFolder(options.graspit);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 GraspScene makeScene(const GraspOptions& options,
@@ -182,8 +131,10 @@ GraspScene makeScene(const GraspOptions& options,
   std::optional<Eigen::Vector3d> viewpoint = options.frame.viewpointOf();
   if (!viewpoint)
     viewpoint = knownSensor(file);
-  if (!viewpoint && cloud)
-    viewpoint = viewpointOf(*cloud);
+  if (!viewpoint && cloud) {
+    if ((viewpoint = viewpointOf(*cloud)))
+      *viewpoint += cloud->offset;
+  }
   if (viewpoint) {
     scene.has_viewpoint = true;
     scene.viewpoint = *viewpoint;
@@ -194,7 +145,8 @@ GraspScene makeScene(const GraspOptions& options,
 Eigen::Matrix3Xd columnsOf(const LoadedCloud& input) {
   Eigen::Matrix3Xd points(3, Eigen::Index(input.cloud->size()));
   for (std::size_t i = 0; i < input.cloud->size(); ++i)
-    points.col(Eigen::Index(i)) = (*input.cloud)[i].getVector3fMap().cast<double>();
+    points.col(Eigen::Index(i)) =
+        (*input.cloud)[i].getVector3fMap().cast<double>() + input.offset;
   return points;
 }
 

@@ -4,6 +4,7 @@
 #include "app.h"
 #include "files.h"
 #include "graspit_folder.h"
+#include "offset.h"
 
 #include "pcl_sq/config.h"
 #include "pcl_sq/grasp_quality.h"
@@ -156,6 +157,7 @@ void writeSnapshot(const MultiSuperquadric& model,
     renderer.addLines(forks, {120, 160, 120}, 1.5);
   renderer.addPoints(contacts, {220, 30, 30}, 12.0);
   renderer.save(options.snapshot);
+  noteWritten(options.snapshot);
 }
 #endif
 
@@ -182,8 +184,12 @@ GraspPlan planGrasps(const MultiSuperquadric& model,
                      const GraspOptions& options,
                      double& milliseconds) {
   const auto start = std::chrono::steady_clock::now();
-  const GraspPlan plan =
-      GraspPlanner(options.gripper, options.planner).plan(model, scene);
+  const GraspPlanner planner(options.gripper, options.planner);
+  const Eigen::Vector3d offset = offsetOf(model);
+  GraspPlan plan =
+      offset.isZero()
+          ? planner.plan(model, scene)
+          : moved(planner.plan(moved(model, -offset), moved(scene, -offset)), offset);
   milliseconds = std::chrono::duration<double, std::milli>(
                      std::chrono::steady_clock::now() - start)
                      .count();
@@ -221,7 +227,8 @@ std::string graspsToJson(const GraspPlan& plan,
   json["rejections"] = toJson(plan.rejections);
   json["timings_ms"] = {{"plan", milliseconds}};
   json["generator"] = "pcl_sq " PCL_SQ_VERSION;
-  return json.dump(2);
+  // names may hold bytes that are not UTF-8
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& file) {
@@ -230,7 +237,7 @@ void addGrasps(const GraspPlan& plan, const GraspOptions& options, ModelFile& fi
   extra["grasps"] = Json::array();
   for (const Grasp& grasp : plan.grasps)
     extra["grasps"].push_back(toJson(grasp));
-  file.extra_json = extra.dump();
+  file.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void writeGraspOutputs(const MultiSuperquadric& model,
@@ -239,12 +246,13 @@ void writeGraspOutputs(const MultiSuperquadric& model,
                        const GraspOptions& options,
                        const std::string& json) {
   if (!options.output.empty())
-    writeTextFile(options.output, json + "\n");
+    writeOutput(options.output, json + "\n");
   if (!options.graspit.empty())
     writeGraspit(model, plan, scene, options);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
+  const Eigen::Vector3d near = -offsetOf(model);
   if (!options.snapshot.empty())
-    writeSnapshot(model, plan, scene, options);
+    writeSnapshot(moved(model, near), moved(plan, near), moved(scene, near), options);
 #endif
 }
 

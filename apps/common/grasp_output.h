@@ -37,10 +37,6 @@ void addGraspOutputOptions(CLI::App& cli, GraspOptions& options);
 /** \brief Refuses contradictions and files that could not be written later. */
 void checkGraspOptions(const GraspOptions& options);
 
-/** \brief A preset's name or a TOML file with the members of Gripper.
- * \throw UsageError naming the presets, or the key that is wrong */
-Gripper readGripper(const std::string& preset_or_path);
-
 /** \brief The scene of a model: table and viewpoint from the options, else those that
  * the model file tells of, else the viewpoint that the cloud does. A place of the
  * camera that was guessed is none: which sides are unseen is not known then. \param[in]

@@ -44,14 +44,6 @@ ownFiles(const fs::path& folder, const std::string& list, const std::string& nam
   return own;
 }
 
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure("cannot make the folder '" + folder.string() +
-                  "': " + error.message() + ".");
-}
-
 } // namespace
 
 std::string graspitName(const std::string& input_path) {
@@ -82,9 +74,9 @@ void writeGraspitFolder(const std::string& folder,
                     "' is there and not of an export of the name '" + name +
                     "'; give another name with --graspit-name.");
   for (const TextFile& file : files)
-    makeFolder((root / file.path).parent_path());
+    makeFolder((root / file.path).parent_path().string());
   for (const TextFile& file : files) {
-    writeTextFile((root / file.path).string(), file.contents);
+    writeOutput((root / file.path).string(), file.contents);
     old.erase(file.path);
   }
   for (const std::string& path : old)

@@ -208,8 +208,10 @@ HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode)
   std::string positionals;
   for (const CLI::Option* option : app->get_options())
     if (option->get_positional()) {
-      usage += option->get_required() ? " " + option->get_type_name()
-                                      : " [" + option->get_type_name() + "]";
+      std::string kind = option->get_type_name();
+      if (kind.compare(0, 4, "TEXT") == 0)
+        kind = option->get_single_name();
+      usage += option->get_required() ? " " + kind : " [" + kind + "]";
       positionals += make_option(option, true);
     }
   std::string text = wrapped(app->get_description(), 0, 0) + "\n\n" + usage + "\n";

@@ -13,6 +13,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <vector>
+
 namespace pcl_sq::app {
 namespace {
 
@@ -80,6 +82,30 @@ cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags
     refuse(
         "cannot be decoded; it is damaged, or of a rare kind: write it again as PNG.");
   return image;
+}
+
+void claimImage(const std::string& option, const std::string& path) {
+  if (path.empty())
+    return;
+  const std::string format = formatOf(path, ".png");
+  if (format.size() < 2 || !cv::haveImageWriter("image" + format))
+    throw UsageError(option + ": '" + path +
+                     "' does not end like a picture; use .png.");
+  claimOutput(option, path);
+}
+
+void writeImage(const std::string& path, const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  bool done = false;
+  try {
+    done = cv::imencode(formatOf(path, ".png"), image, bytes);
+  } catch (const cv::Exception&) { // the sentence below tells more
+  }
+  if (!done)
+    throw Failure("'" + path +
+                  "' is of a format that cannot hold this picture; use "
+                  ".png.");
+  writeOutput(path, std::string(bytes.begin(), bytes.end()));
 }
 
 } // namespace pcl_sq::app

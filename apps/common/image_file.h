@@ -14,4 +14,11 @@ cv::Mat readImage(const std::string& path, int flags);
 /** \brief As readImage(), of a file's bytes. \param[in] name for messages */
 cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags);
 
+/** \brief claimOutput() for a picture: PNG into pipes and devices, otherwise as the
+ * ending says. \throw UsageError too, if no picture has that ending */
+void claimImage(const std::string& option, const std::string& path);
+
+/** \brief Writes a picture. \throw Failure */
+void writeImage(const std::string& path, const cv::Mat& image);
+
 } // namespace pcl_sq::app

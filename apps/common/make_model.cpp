@@ -123,7 +123,9 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   if (!rect.empty()) {
     selection.has_region = true;
     if (!openAperture(input, options, rect, selection))
-      throw Failure("the --roi holds no cluster of points at one depth.");
+      throw Failure(
+          "the --roi holds no cluster of points at one depth; draw it around the "
+          "object, where the cloud has points.");
   } else {
     selection.indices->resize(cloud.size());
     std::iota(selection.indices->begin(), selection.indices->end(), 0);
@@ -162,10 +164,10 @@ void tellFrame(const LoadedCloud& input,
 
 } // namespace
 
-ModelResult makeModel(const LoadedCloud& input,
-                      const std::string& input_path,
-                      const ModelOptions& options,
-                      double load_ms) {
+ModelResult makeNearModel(const LoadedCloud& input,
+                          const std::string& input_path,
+                          const ModelOptions& options,
+                          double load_ms) {
   ModelResult result;
   auto& timings = result.file.timings_ms;
   timings.emplace_back("load", load_ms);
@@ -212,7 +214,6 @@ ModelResult makeModel(const LoadedCloud& input,
   file.input_path = input_path;
   file.input_points = input.cloud->size();
   file.finite_points = input.finite_points;
-  file.options_json = optionsToJson(options);
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
   if (options.taper)
@@ -221,7 +222,6 @@ ModelResult makeModel(const LoadedCloud& input,
   for (const auto& [stage, ms] : timings)
     total += ms;
   timings.emplace_back("total", total);
-  file.extra_json = reportToJson(result);
   return result;
 }
 

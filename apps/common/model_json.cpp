@@ -28,7 +28,7 @@ std::string optionsToJson(const ModelOptions& options) {
       json["taper"] = true;
     if (!options.mask.empty())
       json["mask"] = options.mask;
-    return json.dump();
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
   json["fit"] = e.fit == FitMode::PAPER ? "paper" : "full";
   json["cost"] = e.paper_fit.cost == Cost::PAPER    ? "paper"
@@ -49,7 +49,7 @@ std::string optionsToJson(const ModelOptions& options) {
     json["roi"] = options.roi;
   if (!options.box.empty())
     json["box"] = options.box;
-  return json.dump();
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string reportToJson(const ModelResult& result) {
@@ -102,7 +102,8 @@ std::string reportToJson(const ModelResult& result) {
         {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
   const Eigen::Vector3d size = sizeOf(result).sides;
-  return nlohmann::ordered_json{{"size", numbers(size)}, {"report", json}}.dump();
+  return nlohmann::ordered_json{{"size", numbers(size)}, {"report", json}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace pcl_sq::app

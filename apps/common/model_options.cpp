@@ -58,8 +58,9 @@ void addFitOptions(CLI::App& cli, EstimationOptions& options) {
       "A part's points keep their front, or the centre is the region's or theirs");
 }
 
-/** \brief Voxels along a side beyond which none of any sensor holds two points. */
-constexpr int MAX_DIVISIONS = 1000;
+/** \brief Voxels along a side: an image of a megapixel has three points, which a voxel
+ * needs, in each of so many squared. The search for prisms takes their cube. */
+constexpr int MAX_DIVISIONS = 500;
 
 void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
   VoxelOptions& voxels = options.voxels;
@@ -74,7 +75,7 @@ void addPrismOptions(CLI::App& cli, EstimationOptions& options) {
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->default_str("5,5,10")
-      ->check(positiveNumber(100.0));
+      ->check(number(100.0 / MAX_DIVISIONS, 100.0));
   cli.add_option_function<double>(
          "--voxel-size",
          [&voxels](double size) {
@@ -112,7 +113,8 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.set_config("--config", "", "TOML file with options; the command line wins")
       ->type_name("FILE")
       ->check(existingFile());
-  cli.add_option("-o,--output", options.output, "Model as JSON")->type_name("FILE");
+  cli.add_option("-o,--output", options.output, "Model as JSON; -: standard output")
+      ->type_name("FILE");
   addViewOptions(cli, options);
   addFitOptions(cli, options.estimation);
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
@@ -132,7 +134,9 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       "Take the largest thing that stands on a plane of the cloud; with --roi or "
       "--box the thing in it");
   addPrismOptions(cli, options.estimation);
-  cli.add_option("--grasp-points", options.grasp_points, "Points on the surface as PCD")
+  cli.add_option("--grasp-points",
+                 options.grasp_points,
+                 "Points on the surface as PCD; -: standard output")
       ->type_name("FILE");
   cli.add_option("--grasp-threshold",
                  options.estimation.grasp_threshold,
@@ -143,9 +147,12 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       ->check(wholeNumber(0, 1024))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  cli.add_option("--mesh", options.mesh, "Surface as .ply, .obj, .stl or .vtp")
+  cli.add_option("--mesh",
+                 options.mesh,
+                 "Surface as .ply, .obj, .stl or .vtp; -: PLY on standard output")
       ->type_name("FILE");
-  cli.add_option("--snapshot", options.snapshot, "Picture as PNG")->type_name("FILE");
+  cli.add_option("--snapshot", options.snapshot, "Picture as PNG; -: standard output")
+      ->type_name("FILE");
 #endif
 }
 
@@ -160,10 +167,10 @@ void checkModelOptions(const ModelOptions& options) {
       throw UsageError("--box wants each minimum below its maximum: "
                        "minx,miny,minz,maxx,maxy,maxz.");
   checkTaper(options);
-  for (const std::string& path :
-       {options.output, options.mesh, options.grasp_points, options.snapshot})
-    if (!path.empty())
-      checkWritable(path);
+  claimOutput("--output", options.output);
+  claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});
+  claimOutput("--grasp-points", options.grasp_points);
+  claimOutput("--snapshot", options.snapshot, {".png"});
 }
 
 } // namespace pcl_sq::app

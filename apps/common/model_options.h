@@ -19,6 +19,7 @@ namespace pcl_sq::app {
 
 /** \brief What every program that makes a model asks the user. */
 struct ModelOptions {
+  CloudOptions cloud;
   EstimationOptions estimation;
   unsigned int threads = 0;
   std::vector<int> roi;    ///< x, y, w, h [px], or empty
@@ -70,6 +71,13 @@ ModelResult makeModel(const LoadedCloud& input,
                       const std::string& input_path,
                       const ModelOptions& options,
                       double load_ms);
+
+/** \brief makeModel() in the cloud's own coordinates, which may be off the file's by
+ * LoadedCloud::offset, and without the report as JSON. */
+ModelResult makeNearModel(const LoadedCloud& input,
+                          const std::string& input_path,
+                          const ModelOptions& options,
+                          double load_ms);
 
 /** \brief Gives the model's parts their tapers, where the data demand any.
  * \return whether they do \throw Failure if the points allow no fit */

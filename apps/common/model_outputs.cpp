@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app.h"
+#include "cloud_bytes.h"
 #include "files.h"
 #include "model_options.h"
+#include "offset.h"
 
 #include "pcl_sq/grasp_point_filter.h"
 
@@ -11,11 +13,26 @@
 #include "pcl_sq/visualization/snapshot_renderer.h"
 #endif
 
-#include <pcl/io/pcd_io.h>
-
 namespace pcl_sq::app {
 
 namespace {
+
+/** \brief The model where the cloud's floats are. */
+ModelFile nearFile(const LoadedCloud& input, const ModelResult& result) {
+  ModelFile file = result.file;
+  file.model = moved(std::move(file.model), -input.offset);
+  return file;
+}
+
+/** \brief Says of a file of floats that it cannot hold georeferenced coordinates. */
+void tellOffset(const std::string& path, const Eigen::Vector3d& offset) {
+  if (offset.isZero())
+    return;
+  char text[120];
+  std::snprintf(
+      text, sizeof(text), "%.0f %.0f %.0f m", offset.x(), offset.y(), offset.z());
+  note("'" + path + "' holds single precision: its coordinates are less by " + text);
+}
 
 void writeGraspPoints(const std::string& path,
                       const LoadedCloud& input,
@@ -26,13 +43,11 @@ void writeGraspPoints(const std::string& path,
   filter.setModel(model);
   pcl::PointCloud<PointGrasp> points;
   filter.describe(indices, points);
+  tellOffset(path, input.offset);
   if (points.empty())
     throw Failure("no point lies on the model's surface; '" + path +
                   "' is not written.");
-  writeAtomically(path, [&](const std::string& temporary) {
-    if (pcl::PCDWriter().writeBinary(temporary, points) != 0)
-      throw Failure("cannot write '" + path + "'.");
-  });
+  writeOutput(path, pcdBytes(points));
 }
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
@@ -42,11 +57,13 @@ void writeSnapshot(const std::string& path,
   SnapshotOptions picture;
   if (result.up)
     picture.up = *result.up;
-  picture.sensor = result.sensor;
+  if (result.sensor)
+    picture.sensor = *result.sensor - input.offset;
   SnapshotRenderer renderer(picture);
   addCloud(renderer, input);
-  addModel(renderer, result.file);
+  addModel(renderer, nearFile(input, result));
   renderer.save(path);
+  noteWritten(path);
 }
 #endif
 
@@ -56,13 +73,22 @@ void writeOutputs(const LoadedCloud& input,
                   const ModelResult& result,
                   const ModelOptions& options) {
   if (!options.output.empty())
-    writeTextFile(options.output, toJson(result.file) + "\n");
+    writeOutput(options.output, toJson(result.file) + "\n");
   if (!options.grasp_points.empty())
-    writeGraspPoints(
-        options.grasp_points, input, result.file.model, result.report.grasp_indices);
+    writeGraspPoints(options.grasp_points,
+                     input,
+                     nearFile(input, result).model,
+                     result.report.grasp_indices);
 #ifdef PCL_SQ_HAVE_VISUALIZATION
-  if (!options.mesh.empty())
-    writeMesh(options.mesh, meshesOf(result.file));
+  const std::string format = formatOf(options.mesh, ".ply");
+  const bool single_precision = format == ".ply" || format == ".stl";
+  if (!options.mesh.empty()) {
+    writeMesh(options.mesh,
+              meshesOf(single_precision ? nearFile(input, result) : result.file));
+    noteWritten(options.mesh);
+    if (single_precision)
+      tellOffset(options.mesh, input.offset);
+  }
   if (!options.snapshot.empty())
     writeSnapshot(options.snapshot, input, result);
 #endif

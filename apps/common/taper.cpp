@@ -72,8 +72,7 @@ bool addTaper(const LoadedCloud& input,
         fitTapered(pointsAt(input, result.report.parts.at(0).indices.indices),
                    options.estimation.full_fit);
     if (!result.taper->ok())
-      throw Failure("the points allow no tapered fit (" +
-                    std::string(toString(result.taper->untapered.termination)) + ").");
+      throw Failure("the points allow no tapered fit; leave out --taper.");
     model.parts = {result.taper->model};
   }
   if (!model.isTapered())

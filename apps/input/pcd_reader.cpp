@@ -176,7 +176,7 @@ private:
     if (points_ && *points_ != total_)
       throw Failure("its PCD header's WIDTH x HEIGHT differs from its POINTS");
     shape_.width = static_cast<std::uint32_t>(width_.value_or(total_));
-    shape_.height = static_cast<std::uint32_t>(height_.value_or(1));
+    shape_.height = static_cast<std::uint32_t>(width_ ? height_.value_or(1) : 1);
     // a digit and a separator for each number of a text, without the last separator
     const std::uint64_t least = kind_ == "ascii" ? 2 * point_values_ : point_bytes_;
     const std::uint64_t available = kind_ == "ascii" ? body + 1 : body;

@@ -95,8 +95,11 @@ void splitCells(std::string_view line, std::vector<std::string_view>& cells) {
       cell = cell.substr(1, cell.size() - 2);
     cells.push_back(cell);
     skipBlanks();
-    if (at < line.size() && (line[at] == ',' || line[at] == ';'))
-      ++at;
+    if (at >= line.size() || (line[at] != ',' && line[at] != ';'))
+      continue;
+    ++at;
+    if (at == line.size() && cells.size() < 3)
+      cells.emplace_back(); // "1;2;": the third number is the missing one
   }
 }
 

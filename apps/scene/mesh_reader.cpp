@@ -8,8 +8,8 @@
 #include "text.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
+#include <sstream>
 
 namespace pcl_sq::app {
 namespace {
@@ -29,8 +29,8 @@ void weld(TriangleMesh& mesh) {
   };
   std::sort(order.begin(), order.end(), less);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool equal = k > 0 && all[order[k]] == all[order[k - 1]];
-    first[order[k]] = equal ? first[order[k - 1]] : order[k];
+    const bool same = k > 0 && all[order[k]] == all[order[k - 1]];
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
   }
   mesh.vertices.clear();
   std::vector<std::uint32_t> place(all.size());
@@ -52,7 +52,7 @@ TriangleMesh makeMesh(Shape shape) {
   // squares and cubes of lengths must stay numbers, with room for the unit
   constexpr double FARTHEST = 1e9;
   for (std::size_t i = 0; i < shape.points.size(); ++i)
-    if (!(shape.points[i].cwiseAbs().maxCoeff() <= FARTHEST))
+    if (!(shape.points[i].array().abs() <= FARTHEST).all()) // NaN neither
       throw Failure("its vertex " + std::to_string(i + 1) +
                     " has a coordinate that is no length");
   TriangleMesh mesh;
@@ -76,23 +76,19 @@ TriangleMesh readMesh(const std::string& path, const CloudOptions& options) {
 }
 
 void writePly(const std::string& path, const TriangleMesh& mesh) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << "ply\nformat binary_little_endian 1.0\nelement vertex "
-        << mesh.vertices.size()
-        << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
-        << mesh.triangles.size()
-        << "\nproperty list uchar int vertex_indices\nend_header\n";
-    for (const Eigen::Vector3d& v : mesh.vertices)
-      out.write(reinterpret_cast<const char*>(v.data()), 3 * sizeof(double));
-    for (const auto& t : mesh.triangles) {
-      const char three = 3;
-      out.write(&three, 1);
-      out.write(reinterpret_cast<const char*>(t.data()), 3 * sizeof(std::uint32_t));
-    }
-    if (!out.flush())
-      throw Failure("cannot write '" + path + "'; is the disk full?");
-  });
+  std::ostringstream out;
+  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+      << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    out.write(reinterpret_cast<const char*>(v.data()), 3 * sizeof(double));
+  for (const auto& t : mesh.triangles) {
+    const char three = 3;
+    out.write(&three, 1);
+    out.write(reinterpret_cast<const char*>(t.data()), 3 * sizeof(std::uint32_t));
+  }
+  writeOutput(path, out.str());
 }
 
 } // namespace pcl_sq::app

@@ -3,10 +3,13 @@
 
 #include "app.h"
 #include "files.h"
+#include "text.h"
+#include "value_checks.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <vector>
@@ -33,10 +36,13 @@ std::vector<double> numbersOf(std::string text) {
       ' ');
   std::istringstream in(text);
   std::vector<double> numbers;
-  for (double x = 0.0; in >> x;)
+  for (std::string word; in >> word;) {
+    double x = 0.0;
+    if (!parseNumber(word, x) || !(std::abs(x) <= 1e20))
+      throw Failure("the pose holds " + app::quoted(word) +
+                    ", which is no number below 1e20.");
     numbers.push_back(x);
-  if (!in.eof())
-    throw Failure("the pose holds something that is not a number.");
+  }
   return numbers;
 }
 

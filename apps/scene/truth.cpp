@@ -3,7 +3,9 @@
 
 #include "app.h"
 #include "files.h"
+#include "json_text.h"
 
+#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
 namespace pcl_sq::app {
@@ -22,21 +24,86 @@ Json rows(const Eigen::Matrix3d& m) {
   return result;
 }
 
-template <int N>
-Eigen::Matrix<double, N, 1> vectorOf(const Json& json) {
-  if (json.size() != static_cast<std::size_t>(N))
-    throw Failure("a vector of the truth file has the wrong length.");
-  Eigen::Matrix<double, N, 1> v;
-  for (int i = 0; i < N; ++i)
-    v[i] = json.at(static_cast<std::size_t>(i)).get<double>();
-  return v;
-}
+/** \brief Takes members out of a truth file; a Failure names the one that is wrong. */
+class Members {
+public:
+  Members(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
 
-Eigen::Matrix3d matrixOf(const Json& json) {
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i)
-    m.row(i) = vectorOf<3>(json.at(static_cast<std::size_t>(i))).transpose();
-  return m;
+  Members at(const char* key) const {
+    if (!json_.is_object() || !json_.contains(key))
+      refuse(std::string("has no member \"") + key + "\"");
+    return {json_.at(key), path_};
+  }
+  std::string text(const char* key) const {
+    const Json& value = at(key).json_;
+    if (!value.is_string())
+      refuse(std::string("\"") + key + "\" is no text");
+    return value.get<std::string>();
+  }
+  double number(const char* key, double low = -1e20, double high = 1e20) const {
+    return at(key).value(key, low, high);
+  }
+  template <int N>
+  Eigen::Matrix<double, N, 1>
+  vector(const char* key, double low = -1e20, double high = 1e20) const {
+    return at(key).values<N>(key, low, high);
+  }
+  Eigen::Matrix3d rotation() const {
+    const Members rows = at("rotation");
+    Eigen::Matrix3d m;
+    if (!rows.json_.is_array() || rows.json_.size() != 3)
+      refuse("\"rotation\" must hold three rows");
+    for (std::size_t i = 0; i < 3; ++i)
+      m.row(Eigen::Index(i)) =
+          Members(rows.json_[i], path_).values<3>("rotation", -2.0, 2.0).transpose();
+    const Eigen::Matrix3d skew = m * m.transpose() - Eigen::Matrix3d::Identity();
+    if (!(skew.cwiseAbs().maxCoeff() < 1e-4) || m.determinant() < 0.0)
+      refuse("\"rotation\" is not a rotation");
+    return m;
+  }
+  const Json& json() const { return json_; }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Failure("'" + path_ + "' is not a truth file of pcl_sq_render: " + what +
+                  ".");
+  }
+
+private:
+  double value(const char* key, double low, double high) const {
+    const double x = json_.is_number() ? json_.get<double>() : low - 1.0;
+    if (!(x >= low && x <= high))
+      refuse(std::string("\"") + key + "\" is no number within its range");
+    return x;
+  }
+  template <int N>
+  Eigen::Matrix<double, N, 1> values(const char* key, double low, double high) const {
+    if (!json_.is_array() || json_.size() != static_cast<std::size_t>(N))
+      refuse(std::string("\"") + key + "\" must hold " + std::to_string(N) +
+             " numbers");
+    Eigen::Matrix<double, N, 1> v;
+    for (int i = 0; i < N; ++i)
+      v[i] = Members(json_[static_cast<std::size_t>(i)], path_).value(key, low, high);
+    return v;
+  }
+
+  const Json& json_;
+  std::string path_;
+};
+
+/** \brief Largest number of pixels along a side, and in an image. */
+constexpr double MOST_PIXELS = 1e6, MOST_IN_IMAGE = 1e12;
+
+Superquadric partOf(const Members& part) {
+  Superquadric s;
+  s.semi_axes = part.vector<3>("semi_axes");
+  const Eigen::Vector2d epsilon = part.vector<2>("epsilon");
+  s.epsilon1 = epsilon[0];
+  s.epsilon2 = epsilon[1];
+  s.center = part.vector<3>("translation");
+  s.rotation = part.rotation();
+  std::string why;
+  if (!s.isValid(&why))
+    part.refuse("a superquadric is not valid: " + why);
+  return s;
 }
 
 } // namespace
@@ -76,51 +143,45 @@ std::string toJson(const SceneTruth& t) {
 }
 
 SceneTruth readTruth(const std::string& path) {
-  try {
-    const Json json = Json::parse(readFile(path));
-    if (json.at("schema") != "pcl_sq/truth" || json.at("version") != 1)
-      throw Failure("'" + path + "' is not a truth file of version 1.");
-    SceneTruth t;
-    t.scene = json.at("scene").get<std::string>();
-    t.seed = json.at("seed").get<std::uint64_t>();
-    const Json& camera = json.at("camera");
-    t.width = camera.at("width").get<int>();
-    t.height = camera.at("height").get<int>();
-    t.focal_length = camera.at("f").get<double>();
-    t.cx = camera.at("cx").get<double>();
-    t.cy = camera.at("cy").get<double>();
-    t.baseline = camera.at("baseline").get<double>();
-    t.rotation = matrixOf(json.at("pose").at("rotation"));
-    t.translation = vectorOf<3>(json.at("pose").at("translation"));
-    const Json& size = json.at("size");
-    t.size = {size.at("width").get<double>(),
-              size.at("thickness").get<double>(),
-              size.at("height").get<double>()};
-    if (!symmetryFromString(json.at("symmetry").get<std::string>(), &t.symmetry))
-      throw Failure("'" + path + "' names an unknown symmetry.");
-    t.mesh = json.at("mesh").get<std::string>();
-    for (const Json& part : json.at("superquadrics")) {
-      Superquadric s;
-      s.semi_axes = vectorOf<3>(part.at("semi_axes"));
-      s.epsilon1 = part.at("epsilon").at(0).get<double>();
-      s.epsilon2 = part.at("epsilon").at(1).get<double>();
-      s.center = vectorOf<3>(part.at("translation"));
-      s.rotation = matrixOf(part.at("rotation"));
-      std::string why;
-      if (!s.isValid(&why))
-        throw Failure("'" + path + "' holds an invalid superquadric: " + why);
-      t.parts.parts.push_back(s);
-    }
-    t.table = vectorOf<4>(json.at("table"));
-    const auto roi = vectorOf<4>(json.at("roi"));
-    t.roi = {int(roi[0]), int(roi[1]), int(roi[2]), int(roi[3])};
-    t.visible_pixels = json.at("visible_pixels").get<std::size_t>();
-    return t;
-  } catch (const nlohmann::json::exception&) {
-    throw Failure("'" + path +
-                  "' is not a truth file of pcl_sq_render: it is no JSON, or "
-                  "a member is missing or of another type.");
-  }
+  return truthFromJson(readFile(path), path);
+}
+
+SceneTruth truthFromJson(const std::string& text, const std::string& path) {
+  Json json;
+  const Members root(json, path);
+  std::string why;
+  if (!detail::parseJson(text, json, &why))
+    root.refuse(why);
+  if (root.text("schema") != "pcl_sq/truth" || root.number("version") != 1.0)
+    root.refuse("it is of another schema or version");
+  SceneTruth t;
+  t.scene = root.text("scene");
+  if (!root.at("seed").json().is_number_unsigned())
+    root.refuse("\"seed\" is no whole number");
+  t.seed = root.at("seed").json().get<std::uint64_t>();
+  const Members camera = root.at("camera");
+  t.width = static_cast<int>(camera.number("width", 1, MOST_PIXELS));
+  t.height = static_cast<int>(camera.number("height", 1, MOST_PIXELS));
+  t.focal_length = camera.number("f", 1e-3);
+  t.cx = camera.number("cx");
+  t.cy = camera.number("cy");
+  t.baseline = camera.number("baseline");
+  t.rotation = root.at("pose").rotation();
+  t.translation = root.at("pose").vector<3>("translation");
+  const Members size = root.at("size");
+  t.size = {
+      size.number("width", 0), size.number("thickness", 0), size.number("height", 0)};
+  if (!symmetryFromString(root.text("symmetry"), &t.symmetry))
+    root.refuse("\"symmetry\" is not known");
+  t.mesh = root.text("mesh");
+  for (const Json& part : root.at("superquadrics").json())
+    t.parts.parts.push_back(partOf(Members(part, path)));
+  t.table = root.vector<4>("table");
+  const auto roi = root.vector<4>("roi", -MOST_PIXELS, MOST_PIXELS);
+  t.roi = {int(roi[0]), int(roi[1]), int(roi[2]), int(roi[3])};
+  t.visible_pixels =
+      static_cast<std::size_t>(root.number("visible_pixels", 0, MOST_IN_IMAGE));
+  return t;
 }
 
 } // namespace pcl_sq::app

@@ -27,5 +27,7 @@ struct SceneTruth {
 std::string toJson(const SceneTruth& truth);
 /** \throw Failure if the file cannot be read or is not a truth file */
 SceneTruth readTruth(const std::string& path);
+/** \brief As readTruth(), of a file's text. \param[in] path for messages */
+SceneTruth truthFromJson(const std::string& text, const std::string& path);
 
 } // namespace pcl_sq::app

@@ -8,6 +8,7 @@
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
+#include "texture_check.h"
 #include "value_checks.h"
 
 #include <opencv2/core.hpp>
@@ -109,6 +110,17 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
   if (!found)
     throw Failure(segmenter.getFailure() + ".");
   return segment;
+}
+
+/** \brief Refuses an object of which nothing was matched but its surroundings. */
+void requireTexture(const FrontOptions& o, const FrontResult& r) {
+  constexpr double LEAST = 0.05; // a label on a plain body is more
+  const int block = o.stereo.blockSizeFor(r.stereo.disparity.cols);
+  if (!r.stereo.disparity.empty() && r.segment.outlined &&
+      texturedShare(r.stereo, r.segment.mask, block) < LEAST)
+    throw Failure("nothing on the object was matched: it has no texture, so what the "
+                  "matcher gives is noise; put something with texture on it, project a "
+                  "pattern, or use a depth camera (--depth).");
 }
 
 /** \brief Points of the mask that the border filter keeps. */
@@ -281,6 +293,7 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
     r.segment = timer.run("segment", [&] { return findObject(o, roi, r.stereo); });
     r.rect = r.segment.rect;
     r.notes.insert(r.notes.end(), r.segment.notes.begin(), r.segment.notes.end());
+    requireTexture(o, r);
     if (!r.segment.outlined) // a box has no outline that the object could touch
       r.segment.mask.release();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/voxel_layout.h"
 
 #include <pcl/filters/filter.h>
@@ -23,6 +24,8 @@ namespace pcl_sq {
  */
 template <typename PointT>
 class AdaptiveVoxelGrid : public pcl::Filter<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<AdaptiveVoxelGrid<PointT>>;
   using ConstPtr = pcl::shared_ptr<const AdaptiveVoxelGrid<PointT>>;
@@ -108,5 +111,5 @@ private:
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/adaptive_voxel_grid.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/point_grasp.h"
 
 #include <pcl/filters/filter_indices.h>
@@ -25,6 +26,8 @@ enum class SurfaceMetric {
  */
 template <typename PointT>
 class GraspPointFilter : public pcl::FilterIndices<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<GraspPointFilter<PointT>>;
   using ConstPtr = pcl::shared_ptr<const GraspPointFilter<PointT>>;
@@ -95,5 +98,5 @@ PCL_SQ_EXPORTS double surfaceNoise(const MultiSuperquadric& model,
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/grasp_point_filter.hpp"

@@ -65,4 +65,21 @@ fromJson(const std::string& text,
          std::string* why = nullptr,
          TaperedParts tapered_parts = TaperedParts::REFUSE);
 
+/** \brief Writes a model file as toJson() gives it, whole or not at all; see
+ * writeFile(). \param[in] path "-" is standard output \param[out] why the reason of a
+ * failure (a full disk, no such folder, no right), a sentence without its full stop
+ * (optional) \return whether the file was written */
+[[nodiscard]] PCL_SQ_EXPORTS bool
+saveModel(const std::string& path, const ModelFile& file, std::string* why = nullptr);
+
+/** \brief Reads a model file. \param[in] path "-" is standard input
+ * \param[out] file cleared on failure \param[out] why the reason of a failure: the file
+ * cannot be read, or is none that fromJson() takes; a sentence without its full stop
+ * (optional) \return whether there was a model */
+[[nodiscard]] PCL_SQ_EXPORTS bool
+loadModel(const std::string& path,
+          ModelFile& file,
+          std::string* why = nullptr,
+          TaperedParts tapered_parts = TaperedParts::REFUSE);
+
 } // namespace pcl_sq

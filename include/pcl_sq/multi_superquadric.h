@@ -47,4 +47,8 @@ struct PCL_SQ_EXPORTS MultiSuperquadric {
   TriangleMesh meshUnion(int resolution = 96) const;
 };
 
+/** \brief The number of parts and a line for each. \relates MultiSuperquadric */
+PCL_SQ_EXPORTS std::ostream& operator<<(std::ostream& stream,
+                                        const MultiSuperquadric& model);
+
 } // namespace pcl_sq

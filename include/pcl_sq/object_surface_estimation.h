@@ -3,6 +3,7 @@
 
 #include "pcl_sq/estimation_options.h"
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/multi_superquadric.h"
 
 #include <pcl/PointIndices.h>
@@ -59,28 +60,31 @@ struct EstimationReport {
  * \endcode
  * The camera looks along z with y down, as in every image-based cloud.
  *
- * Which points are the object is said in one of these ways; the first three hold for
- * every decomposition, the search alone for Decomposition::PARTS, the best mode:
+ * Which points are the object is said in one of these ways:
  *
  * | said with | the object is |
  * |---|---|
  * | setIndices() | exactly these points, also where they are all of the cloud |
- * | ViewOptions::mask | exactly the pixels under the mask (organized clouds) |
- * | setRegion() | looked for in this box: the thing that it was drawn around |
- * | both setIndices() and setRegion() | looked for among those of the points in the box
- * | | nothing | looked for in the whole view: the largest thing that stands on a table
- * |
+ * | ViewOptions::mask | exactly the pixels under the mask of an organized cloud |
+ * | setRegion() | looked for in this box: the thing that the box was drawn around |
+ * | setIndices() and setRegion() | looked for among those of the points in the box |
+ * | nothing | looked for in the whole view: the largest thing that stands on a table |
  *
- * Where there is nothing to search in, all points that are left are the object: in
- * clouds that are no image (height 1), in clouds without a table, and in the paper's
- * chain. A whole organized cloud that is the object is said with the indices of all its
- * points. pcl::IndicesPtr of TabletopSegmentation, PCL's clusters and the like go to
- * setIndices().
+ * To look for it takes an image, that is an organized cloud, with a table in it, and
+ * the best mode (Decomposition::PARTS, the default). Elsewhere, in lists of points and
+ * in the paper's chain, the object is all points that are left: those of the indices,
+ * in the box. A whole organized cloud that is the object is said with all its indices.
+ * For a rectangle of the image, RoiEstimator gives the points for setIndices() and the
+ * box for setRegion(). What the view is known to hold besides, the table, the
+ * viewpoint, the camera, is said in EstimationOptions::view.
+ *
  * \tparam PointT point type with x, y, z
  * \ingroup pcl_sq
  */
 template <typename PointT>
 class ObjectSurfaceEstimation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<ObjectSurfaceEstimation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const ObjectSurfaceEstimation<PointT>>;
@@ -128,5 +132,5 @@ private:
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/object_surface_estimation.hpp"

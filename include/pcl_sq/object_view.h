@@ -3,6 +3,7 @@
 
 #include "pcl_sq/silhouette.h"
 #include "pcl_sq/support_fit.h"
+#include "pcl_sq/table_plane.h"
 
 #include <optional>
 #include <string>
@@ -11,12 +12,11 @@
 namespace pcl_sq {
 
 /** \brief A table: normal . p + offset = 0, the normal on the camera's side. */
-struct TableModel {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
-  double offset = 0.0;                               ///< [m]
+struct TableModel : TablePlane {
   double sigma = 1e-3; ///< standard deviation of its place below the object [m]
   double noise = 1e-3; ///< root mean square distance of its points [m]
-  double height(const Eigen::Vector3d& p) const { return normal.dot(p) + offset; }
+  /** \brief Height of a point above the table [m]. */
+  double height(const Eigen::Vector3d& p) const { return signedDistance(p); }
 };
 
 /** \brief What is known of the view besides the cloud. Everything is optional. */

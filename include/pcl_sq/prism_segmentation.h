@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/prism.h"
 
 #include <pcl/pcl_base.h>
@@ -21,6 +22,8 @@ namespace pcl_sq {
  */
 template <typename PointT>
 class PrismSegmentation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<PrismSegmentation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const PrismSegmentation<PointT>>;
@@ -59,5 +62,5 @@ private:
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/prism_segmentation.hpp"

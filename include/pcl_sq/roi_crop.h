@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/roi.h"
 
 #include <pcl/filters/crop_box.h>
@@ -17,6 +18,8 @@ namespace pcl_sq {
  */
 template <typename PointT>
 class RoiCrop : public pcl::CropBox<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<RoiCrop<PointT>>;
   using ConstPtr = pcl::shared_ptr<const RoiCrop<PointT>>;
@@ -46,5 +49,5 @@ protected:
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/roi_crop.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pcl_sq/depth_histogram.h"
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/roi.h"
 
 #include <pcl/pcl_base.h>
@@ -28,6 +29,8 @@ enum class RoiExtent {
  */
 template <typename PointT>
 class RoiEstimator : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   using Ptr = pcl::shared_ptr<RoiEstimator<PointT>>;
   using ConstPtr = pcl::shared_ptr<const RoiEstimator<PointT>>;
@@ -88,5 +91,5 @@ private:
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/roi_estimator.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/impl/point_types.hpp"
 
 #include <pcl/sample_consensus/sac_model.h>
 
@@ -22,7 +23,20 @@ namespace pcl_sq {
  * pays. Distances are those of Superquadric::footPointDistance().
  *
  * Limits on the semi-axes are the base class's setRadiusLimits(); any other wish is a
- * function for setModelConstraints(). RANSAC and MSAC are supported; RRANSAC and RMSAC
+ * function for setModelConstraints().
+ *
+ * Where a cloud holds several things, hardly any sample from all over it belongs to one
+ * of them. The points of a sample are therefore drawn near to its first one:
+ *   - setRadiusLimits(min, max) makes "near" twice the largest semi-axis, a half and a
+ *     quarter of it in turn, though never less than twice the smallest: give the limits
+ *     and the things of a scene are found one after the other (RANSAC, take the inliers
+ *     out, again). The largest should not be much larger than half of the largest
+ * thing, or one superquadric over two neighbours may have more inliers than either;
+ *   - setSamplesMaxDist(radius, search) makes it that radius [m]. The search is not
+ *     needed and may be null: points that are not among the indices are never drawn;
+ *   - with neither, samples come from the whole cloud: right for a single thing.
+ *
+ * RANSAC and MSAC are supported; RRANSAC and RMSAC
  * of PCL ignore their iteration limit when models are rejected.
  * \tparam PointT point type with x, y, z
  * \ingroup pcl_sq
@@ -77,6 +91,10 @@ public:
   void setEpsAngle(double angle) { eps_angle_ = angle; }
   double getEpsAngle() const { return eps_angle_; }
 
+  /** \brief Draws a sample, see the class for where from.
+   * \param[in,out] iterations set to a large number where there are too few points
+   * \param[out] samples indices; empty if no good sample is found */
+  void getSamples(int& iterations, pcl::Indices& samples) override;
   /** \brief Superquadric of a sample. \return false where there is none, or none that
    * respects the limits */
   bool computeModelCoefficients(const pcl::Indices& samples,
@@ -120,12 +138,20 @@ protected:
   using pcl::SampleConsensusModel<PointT>::sample_size_;
   using pcl::SampleConsensusModel<PointT>::model_size_;
   using pcl::SampleConsensusModel<PointT>::error_sqr_dists_;
+  using pcl::SampleConsensusModel<PointT>::samples_radius_;
+  using pcl::SampleConsensusModel<PointT>::shuffled_indices_;
 
   bool isModelValid(const Eigen::VectorXf& model_coefficients) const override;
   bool isSampleGood(const pcl::Indices& samples) const override;
 
 private:
   void initialise(unsigned int sample_size);
+  /** \brief How far from the first one the points of the next sample may lie [m];
+   * infinite where nothing is set. */
+  double nextReach();
+  /** \brief Fills \a samples with random points that near to each other. \return false
+   * if there are not as many around the first */
+  bool drawNearby(double reach, pcl::Indices& samples);
   /** \brief Coordinates of points as columns. */
   Eigen::Matrix3Xf gather(const pcl::Indices& indices) const;
   /** \brief Unsigned distances of points; infinite where a coordinate is not finite. */
@@ -135,9 +161,10 @@ private:
   FitOptions options_;
   Eigen::Vector3f axis_ = Eigen::Vector3f::Zero();
   double eps_angle_ = 0.1;
+  unsigned int draws_ = 0; ///< samples drawn so far
 };
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/sac_model_superquadric.hpp"

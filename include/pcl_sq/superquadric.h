@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -134,5 +135,10 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief From pcl::ModelCoefficients::values. */
   static Superquadric fromCoefficients(const std::vector<float>& coefficients);
 };
+
+/** \brief One line for people: centre [m], semi-axes [m], exponents and axes, in the
+ * stream's precision. \relates Superquadric */
+PCL_SQ_EXPORTS std::ostream& operator<<(std::ostream& stream,
+                                        const Superquadric& superquadric);
 
 } // namespace pcl_sq

@@ -26,7 +26,7 @@ struct PCL_SQ_EXPORTS SupportPlane {
    * \param[out] residual [m] */
   SuperquadricCoefficients jacobian(const Superquadric& body, double& residual) const {
     double support;
-    const SuperquadricCoefficients slope = body.supportJacobian(normal, support);
+    SuperquadricCoefficients slope = body.supportJacobian(normal, support);
     residual = normal.dot(body.center) + support - offset;
     return slope;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/point_types.hpp"
 #include "pcl_sq/object_view.h"
 
 #include <pcl/pcl_base.h>
@@ -9,15 +10,6 @@
 #include <vector>
 
 namespace pcl_sq {
-
-/** \brief The plane normal . p + offset = 0; the normal points to the viewer's side. */
-struct TablePlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit length
-  double offset = 0.0;                              ///< [m]
-  double signedDistance(const Eigen::Vector3d& p) const {
-    return normal.dot(p) + offset;
-  }
-};
 
 /** \brief Settings of TabletopSegmentation. */
 struct PCL_SQ_EXPORTS TabletopOptions {
@@ -47,6 +39,8 @@ struct PCL_SQ_EXPORTS TabletopOptions {
  */
 template <typename PointT>
 class TabletopSegmentation : public pcl::PCLBase<PointT> {
+  PCL_SQ_CHECK_POINT_TYPE(PointT);
+
 public:
   /** \brief Sets all options; kept as they were, with a PCL_ERROR, if not valid. */
   void setOptions(const TabletopOptions& options);
@@ -64,7 +58,7 @@ public:
   [[nodiscard]] bool segment(pcl::Indices& object);
 
   /** \brief The plane of the last successful segment(). */
-  TablePlane getPlane() const { return {table_.normal, table_.offset}; }
+  const TablePlane& getPlane() const { return table_; }
   /** \brief The same with its noise. */
   const TableModel& getTable() const { return table_; }
   /** \brief Why the last segment() failed, a sentence; empty if it did not. */
@@ -102,5 +96,5 @@ findTabletopObject(const CloudPoints& points,
 
 } // namespace pcl_sq
 
-// always: any point type links, PCL's or the user's own
+// always: for own point types see impl/point_types.hpp
 #include "pcl_sq/impl/tabletop_segmentation.hpp"

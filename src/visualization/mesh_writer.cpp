@@ -2,18 +2,16 @@
 #include "pcl_sq/visualization/mesh_writer.h"
 
 #include "pcl_sq/exception.h"
-#include "visualization/output_file.h"
+#include "pcl_sq/file_io.h"
+#include "visualization/mesh_bytes.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
-#include <vtkOBJWriter.h>
-#include <vtkPLYWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSTLWriter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -65,42 +63,37 @@ vtkNew<vtkPolyData> toPolyData(const std::vector<TriangleMesh>& parts,
   return data;
 }
 
-/** \brief Runs a writer that is set up but for its file. */
-template <class Writer>
-void run(Writer* writer, vtkPolyData* data, const std::string& path) {
-  OutputFile file(path, WHO);
+std::string vtpBytes(vtkPolyData* data) {
+  vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
-  writer->SetFileName(file.temporaryPath().c_str());
+  writer->WriteToOutputStringOn();
   if (writer->Write() == 0 || writer->GetErrorCode() != 0)
-    throw Exception("[" + WHO + "] " + path +
-                    " could not be written to its end; is the disk full?");
-  file.commit();
+    throw Exception("[" + WHO +
+                    "] the mesh is too large for its format; make it coarser.");
+  return writer->GetOutputString();
+}
+
+std::string bytesOf(const std::string& format,
+                    const std::vector<TriangleMesh>& parts,
+                    const std::vector<Color>& colors) {
+  const vtkNew<vtkPolyData> data = toPolyData(parts, colors); // a check for all formats
+  if (format == ".vtp")
+    return vtpBytes(data);
+  if (format == ".ply")
+    return plyBytes(parts, colors);
+  return format == ".stl" ? stlBytes(parts) : objBytes(parts);
 }
 
 void write(const std::string& path,
            const std::vector<TriangleMesh>& parts,
            const std::vector<Color>& colors) {
-  const std::string extension = lowerExtension(path);
-  if (extension == ".ply") {
-    vtkNew<vtkPLYWriter> writer;
-    writer->SetFileTypeToBinary();
-    if (!colors.empty())
-      writer->SetArrayName("RGB");
-    run(writer.Get(), toPolyData(parts, colors), path);
-  } else if (extension == ".stl") {
-    vtkNew<vtkSTLWriter> writer;
-    writer->SetFileTypeToBinary();
-    run(writer.Get(), toPolyData(parts, {}), path);
-  } else if (extension == ".obj") {
-    vtkNew<vtkOBJWriter> writer;
-    run(writer.Get(), toPolyData(parts, {}), path);
-  } else if (extension == ".vtp") {
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    run(writer.Get(), toPolyData(parts, colors), path);
-  } else {
+  const std::string format = formatOf(path, ".ply");
+  if (format != ".ply" && format != ".obj" && format != ".stl" && format != ".vtp")
     throw Exception("[" + WHO + "] " + path +
                     " has no ending of a mesh format; use .ply, .obj, .stl or .vtp.");
-  }
+  std::string why;
+  if (!writeFile(path, bytesOf(format, parts, colors), &why))
+    throw Exception("[" + WHO + "] " + why + ".");
 }
 
 } // namespace

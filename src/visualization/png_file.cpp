@@ -2,33 +2,29 @@
 #include "visualization/png_file.h"
 
 #include "pcl_sq/exception.h"
+#include "pcl_sq/file_io.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 
 namespace pcl_sq {
-namespace {
 
-const std::string& checked(const std::string& path, const std::string& who) {
-  requirePng(path, who);
-  return path;
-}
-
-} // namespace
-
-void requirePng(const std::string& path, const std::string& who) {
-  if (lowerExtension(path) != ".png")
+void checkPngPath(const std::string& path, const std::string& who) {
+  if (formatOf(path, ".png") != ".png")
     throw Exception("[" + who + "] " + path +
                     " does not end in .png, the one format of pictures; rename it.");
+  std::string why;
+  if (!isWritable(path, &why))
+    throw Exception("[" + who + "] " + why + ".");
 }
 
-PngFile::PngFile(const std::string& path, const std::string& who)
-    : who_(who), path_(path), file_(checked(path, who), who) {}
-
-void PngFile::write(const SnapshotImage& image) {
+void writePng(const std::string& path,
+              const SnapshotImage& image,
+              const std::string& who) {
   vtkNew<vtkImageData> data;
   data->SetDimensions(image.width, image.height, 1);
   data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -40,12 +36,17 @@ void PngFile::write(const SnapshotImage& image) {
                     data->GetScalarPointer(0, image.height - 1 - y, 0)));
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(data);
-  writer->SetFileName(file_.temporaryPath().c_str());
+  writer->WriteToMemoryOn();
   writer->Write();
-  if (writer->GetErrorCode() != 0)
-    throw Exception("[" + who_ + "] " + path_ +
-                    " could not be written to its end; is the disk full?");
-  file_.commit();
+  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  std::string why = "the picture cannot be made into a PNG file; make it smaller";
+  if (bytes == nullptr || writer->GetErrorCode() != 0 ||
+      !writeFile(
+          path,
+          std::string(reinterpret_cast<const char*>(writer->GetResult()->GetPointer(0)),
+                      static_cast<std::size_t>(bytes->GetNumberOfValues())),
+          &why))
+    throw Exception("[" + who + "] " + why + ".");
 }
 
 } // namespace pcl_sq

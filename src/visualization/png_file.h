@@ -2,24 +2,16 @@
 #pragma once
 
 #include "pcl_sq/visualization/snapshot_renderer.h"
-#include "visualization/output_file.h"
 
 namespace pcl_sq {
 
-/** \throws pcl_sq::Exception if the path does not end in .png */
-void requirePng(const std::string& path, const std::string& who);
+/** \brief Asked before a picture is rendered. \throws pcl_sq::Exception if the path
+ * does not end in .png (pipes and devices need no ending) or cannot be written */
+void checkPngPath(const std::string& path, const std::string& who);
 
-/** \brief A PNG file that appears when it is complete. */
-class PngFile {
-public:
-  /** \throws pcl_sq::Exception if the name does not end in .png or cannot be written */
-  PngFile(const std::string& path, const std::string& who);
-  /** \throws pcl_sq::Exception if writing fails, e.g. on a full disk */
-  void write(const SnapshotImage& image);
-
-private:
-  std::string who_, path_;
-  OutputFile file_;
-};
+/** \brief Writes a picture as PNG. \throws pcl_sq::Exception if that fails */
+void writePng(const std::string& path,
+              const SnapshotImage& image,
+              const std::string& who);
 
 } // namespace pcl_sq

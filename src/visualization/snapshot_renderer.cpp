@@ -2,6 +2,7 @@
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
 #include "pcl_sq/exception.h"
+#include "pcl_sq/file_io.h"
 #include "visualization/frame_renderer.h"
 #include "visualization/overlay.h"
 #include "visualization/png_file.h"
@@ -33,6 +34,17 @@ void requireFinite(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (!points.allFinite())
     throw Exception(std::string("[pcl_sq::SnapshotRenderer::") + method +
                     "] a coordinate is not finite; leave such points out.");
+}
+
+/** \brief out.png gives out_000.png, out_001.png ... */
+std::vector<std::string> numberedNames(const std::string& path, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) {
+    char number[24];
+    std::snprintf(number, sizeof number, "_%03d.png", i);
+    names.push_back(path.substr(0, path.size() - 4) + number);
+  }
+  return names;
 }
 
 ViewCamera stillCamera(const SnapshotScene& scene, const Eigen::Matrix3Xd& focus) {
@@ -163,8 +175,8 @@ SnapshotImage SnapshotRenderer::render() const {
 
 void SnapshotRenderer::save(const std::string& path) const {
   // before the work: a bad name must not cost a rendering
-  PngFile file(path, SAVE);
-  file.write(render());
+  checkPngPath(path, SAVE);
+  writePng(path, render(), SAVE);
 }
 
 std::vector<std::string> SnapshotRenderer::saveTurntable(
@@ -174,16 +186,17 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(
   if (count < 1 || count > 1000)
     throw Exception("[pcl_sq::SnapshotRenderer::saveTurntable] the number of pictures "
                     "must lie in [1, 1000].");
-  requirePng(path, SAVE);
+  if (extensionOf(path) != ".png")
+    throw Exception("[" + SAVE + "] '" + path +
+                    "' does not end in .png; the pictures are numbered in front of "
+                    "that ending.");
+  const std::vector<std::string> names = numberedNames(path, count);
+  for (const std::string& name : names)
+    checkPngPath(name, SAVE);
   const Eigen::Matrix3Xd focus = checkedFocus(*scene_);
   const SnapshotOptions& o = scene_->options;
   std::unique_ptr<FrameRenderer> renderer;
-  std::vector<std::string> names;
   for (int i = 0; i < count; ++i) {
-    char number[24];
-    std::snprintf(number, sizeof number, "_%03d.png", i);
-    names.push_back(path.substr(0, path.size() - 4) + number);
-    PngFile file(names.back(), SAVE);
     const ViewCamera camera = ViewCamera::turntable(focus,
                                                     o.view,
                                                     o.up,
@@ -193,9 +206,10 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(
                                                     2.0 * M_PI * i / count);
     if (!renderer)
       renderer = std::make_unique<FrameRenderer>(o.width, o.height);
-    file.write(renderer->render(*scene_, focus, camera));
+    const auto k = static_cast<std::size_t>(i);
+    writePng(names[k], renderer->render(*scene_, focus, camera), SAVE);
     if (progress)
-      progress(names.size());
+      progress(k + 1);
   }
   return names;
 }

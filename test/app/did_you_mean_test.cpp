@@ -21,8 +21,13 @@ TEST(DidYouMean, DistanceIsSymmetric) {
 }
 
 TEST(DidYouMean, FindsTheNameThatWasMeant) {
-  const std::vector<std::string> names = {
-      "--remove-plane", "--roi", "--parts", "--max-parts", "--preset", "-o", "--output"};
+  const std::vector<std::string> names = {"--remove-plane",
+                                          "--roi",
+                                          "--parts",
+                                          "--max-parts",
+                                          "--preset",
+                                          "-o",
+                                          "--output"};
   EXPECT_EQ(closestName("--remove-plan", names), "--remove-plane");
   EXPECT_EQ(closestName("--removeplane", names), "--remove-plane");
   EXPECT_EQ(closestName("--remove_plane", names), "--remove-plane");
@@ -40,8 +45,18 @@ TEST(ValueChecks, NumbersAreAllOfTheWord) {
   double number = 0.0;
   for (const char* word : {"1", "-1", "+1", ".5", "5.", "1e-3", "007"})
     EXPECT_TRUE(parseNumber(word, number)) << word;
-  for (const char* word :
-       {"", "x", "3abc", "1 2", "nan", "inf", "-inf", "1e400", "0x10", "+-1", "--1", "1,5"})
+  for (const char* word : {"",
+                           "x",
+                           "3abc",
+                           "1 2",
+                           "nan",
+                           "inf",
+                           "-inf",
+                           "1e400",
+                           "0x10",
+                           "+-1",
+                           "--1",
+                           "1,5"})
     EXPECT_FALSE(parseNumber(word, number)) << word;
 }
 
@@ -50,7 +65,8 @@ TEST(ValueChecks, WholeNumbersAreDecimal) {
   std::string word = "010";
   EXPECT_EQ(check(word), "");
   EXPECT_EQ(word, "10");
-  for (const char* wrong : {"1.5", "true", "-1", "17", "0x8", "", "99999999999999999999"}) {
+  for (const char* wrong :
+       {"1.5", "true", "-1", "17", "0x8", "", "99999999999999999999"}) {
     std::string value = wrong;
     EXPECT_EQ(check(value).rfind("wants a whole number from 0 to 16, not '", 0), 0u)
         << value;

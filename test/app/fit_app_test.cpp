@@ -72,7 +72,7 @@ TEST(FitApp, WritesAModelThatReadsBackWithItsTimes) {
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
   const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", folder / "model.json"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(run.err.empty()) << run.err;
+  EXPECT_EQ(run.sentences(), 0) << run.err;
   EXPECT_NE(run.out.find("superquadrics"), std::string::npos);
   ModelFile file;
   std::string why;
@@ -137,6 +137,10 @@ TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
   std::string line;
   for (const std::string& path : {first, last}) {
     ASSERT_TRUE(std::getline(lines, line));
+    if (path == last) { // the line of the missing cloud is before it
+      EXPECT_NE(line.find("\"error\""), std::string::npos) << line;
+      ASSERT_TRUE(std::getline(lines, line));
+    }
     ModelFile file;
     std::string why;
     ASSERT_TRUE(fromJson(line, file, &why)) << why;
@@ -266,7 +270,6 @@ TEST(FitApp, FilesThatAreNoCloudsAreRefusedInOneSentence) {
   };
   expectRefusal(folder, {folder / "missing.pcd"});
   expectRefusal(folder, {folder / ""});
-  refuse("cloud.jpg", good);
   for (const std::string extension : {".pcd", ".ply", ".obj", ".xyz"}) {
     refuse("empty" + extension, "");
     std::string garbage(5000, '\0');

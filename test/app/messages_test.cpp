@@ -20,7 +20,7 @@ std::string xyzOf(const Eigen::Matrix3Xd& points) {
 /** \brief A square post of 40 x 40 x 100 mm all round, its sides at 45 degrees to the
  * axes. */
 std::string postXyz() {
-  Eigen::Matrix3Xd points(3, 4 * 21 * 41);
+  Eigen::Matrix3Xd points(3, 4 * 21 * 41 + 2 * 19 * 19);
   Eigen::Index n = 0;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(M_PI / 4.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -30,8 +30,14 @@ std::string postXyz() {
             .toRotationMatrix();
     for (int i = 0; i <= 20; ++i)
       for (int k = 0; k <= 40; ++k)
-        points.col(n++) = turn * r * Eigen::Vector3d(0.02, -0.02 + 0.002 * i, 0.0025 * k);
+        points.col(n++) =
+            turn * r * Eigen::Vector3d(0.02, -0.02 + 0.002 * i, 0.0025 * k);
   }
+  for (const double z : {0.0, 0.1})
+    for (int i = 1; i < 20; ++i)
+      for (int k = 1; k < 20; ++k)
+        points.col(n++) =
+            turn * Eigen::Vector3d(-0.02 + 0.002 * i, -0.02 + 0.002 * k, z);
   return xyzOf(points);
 }
 
@@ -71,7 +77,7 @@ TEST(Messages, ErrorsAreToldEvenWhenQuiet) {
 TEST(Messages, PartsThatCouldNotBeCutAreANote) {
   const Folder folder;
   const std::string cloud =
-      folder.write("bottle.xyz", xyzOf(visiblePoints(bottle(), 60, 0.0005)));
+      folder.write("bottle.xyz", xyzOf(visiblePoints(bottle(), 300, 0.0005)));
   const ProgramRun run =
       runProgram("pcl_sq_fit", {cloud, "--parts", "16", "-o", folder / "m.json"});
   ASSERT_EQ(run.code, 0) << run.err;

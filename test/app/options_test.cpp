@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every option of every program: found through --help, given rubbish, given where it has
-// no effect, misspelt.
+// Every option of every program: found through --help, given rubbish, given where it
+// has no effect, misspelt.
 #include "option_rules.h"
 #include "program.h"
 
@@ -23,7 +23,7 @@ std::vector<Option> optionsOf(const std::string& program) {
   const ProgramRun run = runProgram(program, {"--help"});
   EXPECT_EQ(run.code, 0) << run.err;
   std::vector<Option> options;
-  const std::regex line("(?:^|\n) +(?:-., )?(--[a-z-]+)(?: ([^ \n]+))?(?= *\n|  )");
+  const std::regex line("\n {2}(?:-., |    )(--[a-z-]+)(?: ([^ \n]+))?(?= *\n|  )");
   for (std::sregex_iterator i(run.out.begin(), run.out.end(), line), end; i != end; ++i)
     options.push_back({(*i)[1], (*i)[2]});
   EXPECT_GT(options.size(), 5u) << run.out;
@@ -92,7 +92,8 @@ TEST_P(Program, HelpHasGroupsAndFitsATerminal) {
       EXPECT_LE(line.size(), 80u) << line;
   }
   EXPECT_TRUE(examples);
-  for (const char* group : {"\nInput:\n", "\nOutput:\n", "\nGeneral:\n", "  -h, --help"})
+  for (const char* group :
+       {"\nInput:\n", "\nOutput:\n", "\nGeneral:\n", "  -h, --help"})
     EXPECT_NE(run.out.find(group), std::string::npos) << group;
   EXPECT_EQ(run.out.find("\nOptions:\n"), std::string::npos);
 }
@@ -109,9 +110,10 @@ TEST_P(Program, MisspeltOptionsAreToldWhichWasMeant) {
 TEST_P(Program, NumbersThatAreNoneAreRefusedByName) {
   std::size_t next = 0;
   for (const Option& option : optionsOf(GetParam())) {
-    const bool numeric = option.type == "N" || option.type == "M" ||
-                         option.type == "PX" || option.type == "SIZES" ||
-                         std::regex_match(option.type, std::regex("[A-Z0-9]+(,[A-Z0-9]+)+"));
+    const bool numeric =
+        option.type == "N" || option.type == "M" || option.type == "PX" ||
+        option.type == "SIZES" ||
+        std::regex_match(option.type, std::regex("[A-Z0-9]+(,[A-Z0-9]+)+"));
     if (!numeric)
       continue;
     const std::string good = valueFor(option.name, option.type);
@@ -129,9 +131,8 @@ TEST_P(Program, NumbersThatAreNoneAreRefusedByName) {
 TEST_P(Program, ValuesAtTheEndOfTheLineAreMissed) {
   for (const Option& option : optionsOf(GetParam()))
     if (!option.type.empty())
-      expectSentence(runWith(GetParam(), {option.name}),
-                     option.name.substr(2),
-                     option.name);
+      expectSentence(
+          runWith(GetParam(), {option.name}), option.name.substr(2), option.name);
 }
 
 TEST_P(Program, ChoicesThatAreNoneAreToldTheNames) {
@@ -140,8 +141,7 @@ TEST_P(Program, ChoicesThatAreNoneAreToldTheNames) {
         option.name == "--up")
       continue;
     const std::string first = option.type.substr(0, option.type.find('|'));
-    expectSentence(
-        runWith(GetParam(), {option.name, "nonsense"}), first, option.name);
+    expectSentence(runWith(GetParam(), {option.name, "nonsense"}), first, option.name);
   }
 }
 
@@ -187,16 +187,17 @@ INSTANTIATE_TEST_SUITE_P(All,
 
 TEST(OptionRules, HoldForOptionsThatExist) {
   std::set<std::string> known;
-  for (const char* program : {"pcl_sq_fit",
-                              "pcl_sq_grasp",
-                              "pcl_sq_evaluate",
+  for (const char* program : {
+           "pcl_sq_fit",
+           "pcl_sq_grasp",
+           "pcl_sq_evaluate",
 #ifdef PCL_SQ_TEST_SNAPSHOT
-                              "pcl_sq_snapshot",
+           "pcl_sq_snapshot",
 #endif
 #ifdef PCL_SQ_TEST_STEREO
-                              "pcl_sq_stereo",
-                              "pcl_sq_render",
-                              "pcl_sq_calibrate",
+           "pcl_sq_stereo",
+           "pcl_sq_render",
+           "pcl_sq_calibrate",
 #endif
        })
     for (const Option& option : optionsOf(program))
@@ -246,8 +247,10 @@ TEST(OptionRules, AConfigFileIsReadAlike) {
     return runProgram("pcl_sq_fit",
                       {"absent.pcd", "--config", folder.write("fit.toml", text)});
   };
-  expectSentence(with("decompositon = \"none\"\n"), "'--decomposition'", "typing error");
+  expectSentence(
+      with("decompositon = \"none\"\n"), "'--decomposition'", "typing error");
   expectSentence(with("parts = 1.5\n"), "--parts wants a whole number", "not whole");
   expectSentence(with("friction = 0.5\n"), "--friction has no effect", "no grasps");
-  EXPECT_EQ(with("exclusive = false\nparts = 2\n").code, 1) << "switched off is not given";
+  EXPECT_EQ(with("exclusive = false\nparts = 2\n").code, 1)
+      << "switched off is not given";
 }

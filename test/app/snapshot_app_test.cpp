@@ -67,7 +67,7 @@ TEST(SnapshotApp, TakesAPictureOfModelAndCloudWithoutADisplay) {
         {model, "--cloud", cloud, "--view", view, "--size", "200x150", "-o", output},
         "env -u DISPLAY");
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_TRUE(run.err.empty()) << run.err;
+    EXPECT_EQ(run.sentences(), 0) << run.err;
     EXPECT_EQ(sizeOf(output), SMALL);
   }
   EXPECT_NE(slurp(folder / "front.png"), slurp(folder / "camera.png"));
@@ -121,7 +121,7 @@ TEST(SnapshotApp, TurntableWritesNumberedPicturesAndNoProgressIntoAFile) {
       "pcl_sq_snapshot",
       {model, "--turntable", "3", "--size", "200x150", "-o", folder / "turn.png"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(run.err.empty()) << run.err;
+  EXPECT_EQ(run.sentences(), 0) << run.err;
   for (const char* name : {"turn_000.png", "turn_001.png", "turn_002.png"})
     EXPECT_EQ(sizeOf(folder / name), SMALL) << name;
   EXPECT_EQ(folder.files(), 4u);

@@ -6,6 +6,8 @@
 
 #include "table_scene.h"
 
+#include <pcl/point_types.h>
+
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;

@@ -94,9 +94,8 @@ TEST(CalibrationFormats, ZedsSectionIsChosenByTheImagesSize) {
   const Texts texts = rig.formats().at("ZED");
   const cv::Size vga(672, 376);
   StereoCalibration c = StereoCalibration::fromText(texts, 1.0, vga.width, vga.height);
-  std::string lists = replaced(rig.lists("K1", "K2", "D1", "D2", "R", "T"),
-                               "[400, 300]",
-                               "[672, 376]");
+  std::string lists =
+      replaced(rig.lists("K1", "K2", "D1", "D2", "R", "T"), "[400, 300]", "[672, 376]");
   StereoCalibration same = load(lists);
   const auto got = sources(c, vga), wanted = sources(same, vga);
   EXPECT_LT(cv::norm(got.first, wanted.first, cv::NORM_INF), 1e-2);
@@ -123,16 +122,20 @@ TEST(CalibrationFormats, EveryFormatOfARectifiedPairGivesTheSameNumbers) {
       {"offsets on both",
        "P_left: [500, 0, 199.5, 10, 0, 500, 149.5, 0, 0, 0, 1, 0]\n"
        "P_right: [500, 0, 203.5, -20, 0, 500, 149.5, 0, 0, 0, 1, 0]\n"},
-      {"rows", "P0: 500 0 199.5 0 0 500 149.5 0 0 0 1 0\n"
-               "P1: 500 0 203.5 -30 0 500 149.5 0 0 0 1 0\n"},
-      {"Q", "Q: [[1, 0, 0, -199.5], [0, 1, 0, -149.5], [0, 0, 0, 500],\n"
-            "  [0, 0, 16.666666666666668, 66.666666666666671]]\n"},
+      {"rows",
+       "P0: 500 0 199.5 0 0 500 149.5 0 0 0 1 0\n"
+       "P1: 500 0 203.5 -30 0 500 149.5 0 0 0 1 0\n"},
+      {"Q",
+       "Q: [[1, 0, 0, -199.5], [0, 1, 0, -149.5], [0, 0, 0, 500],\n"
+       "  [0, 0, 16.666666666666668, 66.666666666666671]]\n"},
       {"lines", "fx=500\nfy=500\ncx=199.5\ncy=149.5\nbaseline=0.06\ndoffs=4\n"},
       {"Middlebury",
-       "cam0=[500 0 199.5; 0 500 149.5; 0 0 1]\ncam1=[500 0 203.5; 0 500 149.5; 0 0 1]\n"
+       "cam0=[500 0 199.5; 0 500 149.5; 0 0 1]\ncam1=[500 0 203.5; 0 500 149.5; 0 0 "
+       "1]\n"
        "baseline=60\n"},
-      {"ORB-SLAM", "Camera.fx: 500.0\nCamera.fy: 500.0\nCamera.cx: 199.5\n"
-                   "Camera.cy: 149.5\nCamera.bf: 30.0\nCamera.k1: 0.0\ndoffs: 4\n"}};
+      {"ORB-SLAM",
+       "Camera.fx: 500.0\nCamera.fy: 500.0\nCamera.cx: 199.5\n"
+       "Camera.cy: 149.5\nCamera.bf: 30.0\nCamera.k1: 0.0\ndoffs: 4\n"}};
   for (const auto& [name, text] : formats) {
     SCOPED_TRACE(name);
     const StereoCalibration c = load(text);
@@ -160,8 +163,19 @@ TEST(CalibrationFormats, FisheyesAreRectifiedToWhatCvFisheyeProjects) {
     const auto from = sources(c, rig.size);
     const StereoIntrinsics& k = c.getIntrinsics();
     cv::Mat r1, r2, p1, p2, q;
-    cv::fisheye::stereoRectify(rig.K1, rig.D1.t(), rig.K2, rig.D2.t(), rig.size, rig.R,
-                               rig.T, r1, r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY,
+    cv::fisheye::stereoRectify(rig.K1,
+                               rig.D1.t(),
+                               rig.K2,
+                               rig.D2.t(),
+                               rig.size,
+                               rig.R,
+                               rig.T,
+                               r1,
+                               r2,
+                               p1,
+                               p2,
+                               q,
+                               cv::CALIB_ZERO_DISPARITY,
                                rig.size);
     for (const cv::Vec3d& p : {cv::Vec3d(0.1, 0.05, 0.8), cv::Vec3d(-0.4, -0.2, 0.7)}) {
       const std::vector<cv::Point3d> point = {cv::Point3d(p[0], p[1], p[2])};
@@ -239,7 +253,8 @@ TEST(CalibrationFormats, WhatIsAssumedIsSaid) {
   const auto note = [](const StereoCalibration& c) {
     return c.getNotes().empty() ? std::string() : c.getNotes().front();
   };
-  EXPECT_NE(note(load(replaced(good, "\nR: ", "\n# "))).find("no R"), std::string::npos);
+  EXPECT_NE(note(load(replaced(good, "\nR: ", "\n# "))).find("no R"),
+            std::string::npos);
   const std::string bare = replaced(replaced(good, "\nD1: ", "\n# "), "\nD2: ", "\n# ");
   EXPECT_NE(note(load(bare)).find("no distortion"), std::string::npos);
 }

@@ -20,7 +20,8 @@ TEST(CalibrationMutation, ChangedFilesAreRefusedOrGiveACameraThatIsValid) {
         const auto c = StereoCalibration::fromText(changed, 1.0, 672, 376);
         std::string why;
         const StereoIntrinsics& k = c.getIntrinsics();
-        EXPECT_TRUE(k.fx == 0.0 || k.isValid(&why)) << name << " " << seed << ": " << why;
+        EXPECT_TRUE(k.fx == 0.0 || k.isValid(&why))
+            << name << " " << seed << ": " << why;
         ++accepted;
       } catch (const Exception& e) {
         EXPECT_GT(std::string(e.what()).size(), 40u) << name << " " << seed;

@@ -14,10 +14,29 @@ public:
   explicit Mutator(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 1U) {}
 
   std::string operator()(std::string text) {
-    static const std::vector<std::string> WORDS = {
-        "1e300", "-1e-300", "nan",  ".inf", "1e999", "-0", "[", "]",  "{",
-        "}",     "\n",      ": ",   ",",    "\"",    "<",  ">", "&a", "*a",
-        "null",  "\xff",    "\x01", "0",    "99999999999999999999"};
+    static const std::vector<std::string> WORDS = {"1e300",
+                                                   "-1e-300",
+                                                   "nan",
+                                                   ".inf",
+                                                   "1e999",
+                                                   "-0",
+                                                   "[",
+                                                   "]",
+                                                   "{",
+                                                   "}",
+                                                   "\n",
+                                                   ": ",
+                                                   ",",
+                                                   "\"",
+                                                   "<",
+                                                   ">",
+                                                   "&a",
+                                                   "*a",
+                                                   "null",
+                                                   "\xff",
+                                                   "\x01",
+                                                   "0",
+                                                   "99999999999999999999"};
     for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
       const std::size_t at = below(text.size());
       const std::size_t length = 1 + below(8);

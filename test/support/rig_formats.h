@@ -32,29 +32,31 @@ struct Rig {
 
   /** \brief All formats of the raw pair, by name. */
   std::map<std::string, Files> formats() const {
-    return {{"OpenCV YAML", {{"c.yml", openCv(".yml")}}},
-            {"OpenCV XML", {{"c.xml", openCv(".xml")}}},
-            {"OpenCV JSON", {{"c.json", openCv(".json")}}},
-            {"YAML of lists", {{"c.yaml", lists("K1", "K2", "D1", "D2", "R", "T")}}},
-            {"YAML by side",
-             {{"c.yaml",
-               lists("camera_matrix_left",
-                     "camera_matrix_right",
-                     "distortion_left",
-                     "distortion_right",
-                     "rotation",
-                     "translation")}}},
-            {"YAML counted from 0", {{"c.yaml", lists("K0", "K1", "D0", "D1", "R", "T")}}},
-            {"nested YAML", {{"c.yaml", nested()}}},
-            {"ROS camera_info",
-             {{"left.yaml", cameraInfo(K1, D1, R1, P1)},
-              {"right.yaml", cameraInfo(K2, D2, R2, P2)}}},
-            {"ROS messages",
-             {{"left.yaml", message(K1, D1, R1, P1)},
-              {"right.yaml", message(K2, D2, R2, P2)}}},
-            {"Kalibr", {{"camchain.yaml", kalibr()}}},
-            {"EuRoC", {{"cam0.yaml", euroc(K1, D1, false)}, {"cam1.yaml", euroc(K2, D2, true)}}},
-            {"ZED", {{"SN1.conf", zed()}}}};
+    return {
+        {"OpenCV YAML", {{"c.yml", openCv(".yml")}}},
+        {"OpenCV XML", {{"c.xml", openCv(".xml")}}},
+        {"OpenCV JSON", {{"c.json", openCv(".json")}}},
+        {"YAML of lists", {{"c.yaml", lists("K1", "K2", "D1", "D2", "R", "T")}}},
+        {"YAML by side",
+         {{"c.yaml",
+           lists("camera_matrix_left",
+                 "camera_matrix_right",
+                 "distortion_left",
+                 "distortion_right",
+                 "rotation",
+                 "translation")}}},
+        {"YAML counted from 0", {{"c.yaml", lists("K0", "K1", "D0", "D1", "R", "T")}}},
+        {"nested YAML", {{"c.yaml", nested()}}},
+        {"ROS camera_info",
+         {{"left.yaml", cameraInfo(K1, D1, R1, P1)},
+          {"right.yaml", cameraInfo(K2, D2, R2, P2)}}},
+        {"ROS messages",
+         {{"left.yaml", message(K1, D1, R1, P1)},
+          {"right.yaml", message(K2, D2, R2, P2)}}},
+        {"Kalibr", {{"camchain.yaml", kalibr()}}},
+        {"EuRoC",
+         {{"cam0.yaml", euroc(K1, D1, false)}, {"cam1.yaml", euroc(K2, D2, true)}}},
+        {"ZED", {{"SN1.conf", zed()}}}};
   }
 
   /** \brief A number list with all digits, "a, b, c". */
@@ -87,28 +89,31 @@ struct Rig {
            "]\n" + r + ": [" + list(R) + "]\n" + t + ": [" + list(T) + "]\n";
   }
   std::string nested() const {
-    return "width: 400\nheight: 300\nleft:\n  K: [" + list(K1) + "]\n  D: [" + list(D1) +
-           "]\nright:\n  K: [" + list(K2) + "]\n  D: [" + list(D2) + "]\nR: [" + list(R) +
-           "]\nT: [" + list(T) + "]\n";
+    return "width: 400\nheight: 300\nleft:\n  K: [" + list(K1) + "]\n  D: [" +
+           list(D1) + "]\nright:\n  K: [" + list(K2) + "]\n  D: [" + list(D2) +
+           "]\nR: [" + list(R) + "]\nT: [" + list(T) + "]\n";
   }
   std::string cameraInfo(const cv::Mat& k,
                          const cv::Mat& d,
                          const cv::Mat& r,
                          const cv::Mat& p) const {
     return "image_width: 400\nimage_height: 300\ncamera_name: any\ncamera_matrix:\n"
-           "  rows: 3\n  cols: 3\n  data: [" + list(k) +
+           "  rows: 3\n  cols: 3\n  data: [" +
+           list(k) +
            "]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n"
-           "  cols: 5\n  data: [" + list(d) +
-           ", 0]\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [" + list(r) +
-           "]\nprojection_matrix:\n  rows: 3\n  cols: 4\n  data: [" + list(p) + "]\n";
+           "  cols: 5\n  data: [" +
+           list(d) + ", 0]\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [" +
+           list(r) + "]\nprojection_matrix:\n  rows: 3\n  cols: 4\n  data: [" +
+           list(p) + "]\n";
   }
   std::string message(const cv::Mat& k,
                       const cv::Mat& d,
                       const cv::Mat& r,
                       const cv::Mat& p) const {
     return "header:\n  frame_id: camera\nheight: 300\nwidth: 400\n"
-           "distortion_model: plumb_bob\nd: [" + list(d) + ", 0]\nk: [" + list(k) +
-           "]\nr: [" + list(r) + "]\np: [" + list(p) +
+           "distortion_model: plumb_bob\nd: [" +
+           list(d) + ", 0]\nk: [" + list(k) + "]\nr: [" + list(r) + "]\np: [" +
+           list(p) +
            "]\nbinning_x: 0\nbinning_y: 0\nroi:\n  x_offset: 0\n  y_offset: 0\n"
            "  height: 0\n  width: 0\n  do_rectify: false\n---\n";
   }
@@ -132,8 +137,8 @@ struct Rig {
     std::string rows;
     for (int i = 0; i < 4; ++i)
       rows += "  - [" + list(motion().row(i)) + "]\n";
-    return "cam0:\n  cam_overlaps: [1]\n" + camera(K1, D1) +
-           "cam1:\n  T_cn_cnm1:\n" + rows + "  cam_overlaps: [0]\n" + camera(K2, D2);
+    return "cam0:\n  cam_overlaps: [1]\n" + camera(K1, D1) + "cam1:\n  T_cn_cnm1:\n" +
+           rows + "  cam_overlaps: [0]\n" + camera(K2, D2);
   }
   std::string euroc(const cv::Mat& k, const cv::Mat& d, bool right) const {
     cv::Mat body = cv::Mat::eye(4, 4, CV_64F); // some place on the body
@@ -141,7 +146,8 @@ struct Rig {
     const cv::Mat place = right ? cv::Mat(body * motion().inv()) : body;
     return "sensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: [" + list(place) +
            "]\nrate_hz: 20\nresolution: [400, 300]\ncamera_model: pinhole\n"
-           "intrinsics: [" + intrinsics(k) +
+           "intrinsics: [" +
+           intrinsics(k) +
            "]\ndistortion_model: radial-tangential\ndistortion_coefficients: [" +
            list(d) + "]\n";
   }
@@ -158,12 +164,14 @@ struct Rig {
     cv::Mat turn;
     cv::Rodrigues(R, turn);
     return "[LEFT_CAM_HD]\nfx=1\nfy=1\ncx=1\ncy=1\n\n[RIGHT_CAM_HD]\nfx=1\nfy=1\ncx=1\n"
-           "cy=1\n\n[LEFT_CAM_VGA]\n" + camera(K1, D1) + "\n[RIGHT_CAM_VGA]\n" +
-           camera(K2, D2) + "\n[STEREO]\nBaseline=" + number(-1e3 * T.at<double>(0)) +
-           "\nTY=" + number(1e3 * T.at<double>(1)) + "\nTZ=" +
-           number(1e3 * T.at<double>(2)) + "\nCV_VGA=" + number(turn.at<double>(1)) +
-           "\nRX_VGA=" + number(turn.at<double>(0)) + "\nRZ_VGA=" +
-           number(turn.at<double>(2)) + "\nCV_HD=0\nRX_HD=0\nRZ_HD=0\n";
+           "cy=1\n\n[LEFT_CAM_VGA]\n" +
+           camera(K1, D1) + "\n[RIGHT_CAM_VGA]\n" + camera(K2, D2) +
+           "\n[STEREO]\nBaseline=" + number(-1e3 * T.at<double>(0)) +
+           "\nTY=" + number(1e3 * T.at<double>(1)) +
+           "\nTZ=" + number(1e3 * T.at<double>(2)) +
+           "\nCV_VGA=" + number(turn.at<double>(1)) +
+           "\nRX_VGA=" + number(turn.at<double>(0)) +
+           "\nRZ_VGA=" + number(turn.at<double>(2)) + "\nCV_HD=0\nRX_HD=0\nRZ_HD=0\n";
   }
 };
 

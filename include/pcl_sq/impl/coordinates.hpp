@@ -3,8 +3,7 @@
 
 #include "pcl_sq/superquadric.h"
 
-// PCL's own body for point types that its library does not have compiled in
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl/pcl_base.h>
 
 namespace pcl_sq {
 namespace detail {

@@ -4,7 +4,7 @@
 #include "pcl_sq/grasp_point_filter.h"
 #include "pcl_sq/impl/coordinates.hpp"
 
-#include <pcl/filters/impl/filter_indices.hpp>
+#include <pcl/console/print.h>
 
 #include <cmath>
 
@@ -125,3 +125,5 @@ void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, GraspPointFilter)

@@ -19,49 +19,41 @@ struct EstimationInput {
   const std::optional<RoiBox>& region; ///< where the object is looked for
 };
 
-/** \brief The algorithm of ObjectSurfaceEstimation. */
-[[nodiscard]] PCL_SQ_EXPORTS bool estimateSurface(const EstimationInput& input,
+/** \brief The algorithm of ObjectSurfaceEstimation. \param[in] input null if there is
+ * none */
+[[nodiscard]] PCL_SQ_EXPORTS bool estimateSurface(const EstimationInput* input,
                                                   const EstimationOptions& options,
                                                   unsigned int threads,
                                                   MultiSuperquadric& model,
                                                   EstimationReport& report);
 
+/** \brief Takes options over if they are valid. */
+PCL_SQ_EXPORTS void setOptions(const EstimationOptions& options,
+                               EstimationOptions& target);
+
 } // namespace detail
 
+// short, for they are compiled in every user's file
 template <typename PointT>
 void ObjectSurfaceEstimation<PointT>::setOptions(const EstimationOptions& options) {
-  std::string why;
-  if (options.isValid(&why))
-    options_ = options;
-  else
-    PCL_ERROR("[pcl_sq::ObjectSurfaceEstimation::setOptions] %s; the options stay as "
-              "they were.\n",
-              why.c_str());
+  detail::setOptions(options, options_);
 }
 
 template <typename PointT>
 bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
-  model = {};
-  report_ = {};
-  if (!initCompute()) {
-    report_.failure = "there is no input cloud; call setInputCloud first";
-    PCL_WARN("[pcl_sq::ObjectSurfaceEstimation::estimate] %s.\n",
-             report_.failure.c_str());
-    return false;
-  }
-  const bool found = detail::estimateSurface(
-      {detail::coordinatesOf(*input_),
-       static_cast<int>(input_->width),
-       static_cast<int>(input_->height),
-       input_->sensor_origin_.template head<3>().template cast<double>(),
-       input_->header,
-       *indices_,
-       use_indices_ && !fake_indices_,
-       region_},
-      options_,
-      threads_,
-      model,
-      report_);
+  if (!initCompute())
+    return detail::estimateSurface(nullptr, options_, threads_, model, report_);
+  const auto& origin = input_->sensor_origin_;
+  const detail::EstimationInput input{detail::coordinatesOf(*input_),
+                                      static_cast<int>(input_->width),
+                                      static_cast<int>(input_->height),
+                                      {origin[0], origin[1], origin[2]},
+                                      input_->header,
+                                      *indices_,
+                                      use_indices_ && !fake_indices_,
+                                      region_};
+  const bool found =
+      detail::estimateSurface(&input, options_, threads_, model, report_);
   deinitCompute();
   return found;
 }

@@ -3,9 +3,9 @@
 
 #include "pcl_sq/roi_crop.h"
 
+#include <pcl/common/eigen.h>
+#include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
-#include <pcl/filters/impl/crop_box.hpp>
-#include <pcl/filters/impl/filter_indices.hpp>
 
 #include <cmath>
 #include <limits>
@@ -79,3 +79,5 @@ void RoiCrop<PointT>::applyFilter(pcl::Indices& indices) {
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, RoiCrop)

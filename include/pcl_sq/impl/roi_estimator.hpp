@@ -4,7 +4,7 @@
 #include "pcl_sq/roi_estimator.h"
 
 #include <pcl/common/point_tests.h>
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl/console/print.h>
 
 #include <algorithm>
 
@@ -120,3 +120,5 @@ bool RoiEstimator<PointT>::findSidesAtMedianDepth(RoiBox& region,
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS, RoiEstimator)

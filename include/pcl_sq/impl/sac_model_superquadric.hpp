@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_sq {
 
@@ -69,6 +70,54 @@ Eigen::VectorXd SampleConsensusModelSuperquadric<PointT>::distances(
   return surfaceDistances(Superquadric::fromCoefficients(model_coefficients),
                           gather(indices))
       .cwiseAbs();
+}
+
+template <typename PointT>
+double SampleConsensusModelSuperquadric<PointT>::nextReach() {
+  if (samples_radius_ > 0.0)
+    return samples_radius_;
+  if (!(radius_max_ < std::numeric_limits<double>::max()))
+    return std::numeric_limits<double>::infinity();
+  constexpr double SHARES[] = {1.0, 0.5, 0.25};
+  return std::max(2.0 * radius_max_ * SHARES[draws_++ % 3], 2.0 * radius_min_);
+}
+
+template <typename PointT>
+bool SampleConsensusModelSuperquadric<PointT>::drawNearby(double reach,
+                                                          pcl::Indices& samples) {
+  // a shuffle that stops early: [0, accepted) are near, [accepted, next) are not
+  const std::size_t size = shuffled_indices_.size();
+  std::size_t accepted = 0;
+  Eigen::Vector3f first;
+  for (std::size_t next = 0; next < size && accepted < samples.size(); ++next) {
+    const std::size_t drawn =
+        next + static_cast<std::size_t>(this->rnd()) % (size - next);
+    std::swap(shuffled_indices_[next], shuffled_indices_[drawn]);
+    const Eigen::Vector3f point =
+        (*input_)[static_cast<std::size_t>(shuffled_indices_[next])].getVector3fMap();
+    if (next == 0)
+      first = point;
+    if ((point - first).norm() <= reach) // never with NaN
+      std::swap(shuffled_indices_[accepted++], shuffled_indices_[next]);
+  }
+  std::copy_n(shuffled_indices_.begin(), samples.size(), samples.begin());
+  return accepted == samples.size();
+}
+
+template <typename PointT>
+void SampleConsensusModelSuperquadric<PointT>::getSamples(int& iterations,
+                                                          pcl::Indices& samples) {
+  const double reach = nextReach();
+  if (indices_->size() < sample_size_ || std::isinf(reach)) {
+    pcl::SampleConsensusModel<PointT>::getSamples(iterations, samples);
+    return;
+  }
+  constexpr int MAX_TRIES = 100; // each may look at all points
+  samples.resize(sample_size_);
+  for (int i = 0; i < MAX_TRIES; ++i)
+    if (drawNearby(i == 0 ? reach : nextReach(), samples) && isSampleGood(samples))
+      return;
+  samples.clear();
 }
 
 template <typename PointT>
@@ -217,3 +266,6 @@ bool SampleConsensusModelSuperquadric<PointT>::doSamplesVerifyModel(
 }
 
 } // namespace pcl_sq
+
+PCL_SQ_INSTANTIATE(extern template class PCL_SQ_EXPORTS,
+                   SampleConsensusModelSuperquadric)

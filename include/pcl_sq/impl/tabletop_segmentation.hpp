@@ -3,8 +3,7 @@
 
 #include "pcl_sq/tabletop_segmentation.h"
 
-// PCL's own body for point types that its library does not have compiled in
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl/console/print.h>
 
 #include <limits>
 

@@ -9,11 +9,31 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+namespace pcl {
+template <typename PointT>
+class PointCloud;
+} // namespace pcl
 
 namespace pcl_sq {
 
 struct SnapshotScene;
+
+namespace detail {
+
+/** \brief Whether points have a colour of their own. */
+template <typename PointT, typename = void>
+constexpr bool HAS_COLOR = false;
+template <typename PointT>
+constexpr bool HAS_COLOR<PointT,
+                         std::void_t<decltype(std::declval<PointT>().r),
+                                     decltype(std::declval<PointT>().g),
+                                     decltype(std::declval<PointT>().b)>> = true;
+
+} // namespace detail
 
 /** \brief A picture in memory: rows from the top, three bytes per pixel. */
 struct SnapshotImage {
@@ -34,7 +54,7 @@ struct SnapshotImage {
  * xvfb, libgl1-mesa-dri). Rendering is serialised over all threads of the process.
  * \code
  * SnapshotRenderer renderer;
- * renderer.addCloud(points, colors);
+ * renderer.addCloud(*cloud);
  * renderer.addModel(model);
  * renderer.save("model.png");
  * \endcode
@@ -57,6 +77,20 @@ public:
    * grey-blue \throws pcl_sq::Exception if the two have different lengths */
   void addCloud(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                 const Colors& colors = Colors());
+  /** \brief The measured points of PCL's cloud, in their own colours where their type
+   * has any. */
+  template <typename PointT>
+  void addCloud(const pcl::PointCloud<PointT>& cloud) {
+    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(cloud.size()));
+    Colors colors(3, detail::HAS_COLOR<PointT> ? points.cols() : 0);
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      const PointT& point = cloud[static_cast<std::size_t>(i)];
+      points.col(i) << point.x, point.y, point.z;
+      if constexpr (detail::HAS_COLOR<PointT>)
+        colors.col(i) << point.r, point.g, point.b;
+    }
+    addCloud(points.cast<double>(), colors);
+  }
   /** \brief Translucent superquadrics with outlines, coloured by partColor(); parts of
    * several models are counted on. \throws pcl_sq::Exception if a part is invalid */
   void addModel(const MultiSuperquadric& model);

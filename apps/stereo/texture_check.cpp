@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "texture_check.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+
+namespace pcl_sq::app {
+namespace {
+
+cv::Mat grey(const cv::Mat& image) {
+  cv::Mat result = image;
+  if (image.channels() == 3)
+    cv::cvtColor(image, result, cv::COLOR_BGR2GRAY);
+  result.convertTo(result, CV_32F);
+  return result;
+}
+
+} // namespace
+
+double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
+  constexpr double SHARED = 0.5;
+  cv::Mat inner;
+  cv::erode(mask, inner, cv::Mat::ones(block, block, CV_8U), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  const int count = cv::countNonZero(inner);
+  if (count < block * block)
+    return 1.0;
+  const cv::Mat& disparity = stereo.disparity;
+  cv::Mat x(disparity.size(), CV_32F), y(disparity.size(), CV_32F);
+  cv::Mat known = disparity == disparity; // 0 or 255
+  for (int v = 0; v < disparity.rows; ++v)
+    for (int u = 0; u < disparity.cols; ++u) {
+      const float d = disparity.at<float>(v, u);
+      x.at<float>(v, u) = static_cast<float>(u) - (std::isnan(d) ? 0.0f : d);
+      y.at<float>(v, u) = static_cast<float>(v);
+    }
+  const cv::Mat left = grey(stereo.left);
+  cv::Mat right;
+  cv::remap(grey(stereo.right), right, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::Mat weight;
+  known.convertTo(weight, CV_32F, 1.0 / 255.0);
+  const auto mean = [&](const cv::Mat& values) {
+    cv::Mat sum, total;
+    cv::boxFilter(values.mul(weight), sum, CV_32F, {block, block});
+    cv::boxFilter(weight, total, CV_32F, {block, block});
+    return cv::Mat(sum / cv::max(total, 1e-6));
+  };
+  const cv::Mat l = mean(left), r = mean(right);
+  const cv::Mat covariance = mean(left.mul(right)) - l.mul(r);
+  const cv::Mat variances = (mean(left.mul(left)) - l.mul(l))
+                                .mul(mean(right.mul(right)) - r.mul(r));
+  cv::Mat deviations;
+  cv::sqrt(cv::max(variances, 0.0), deviations);
+  const cv::Mat shared = covariance > SHARED * deviations;
+  return static_cast<double>(cv::countNonZero(shared & known & inner)) / count;
+}
+
+} // namespace pcl_sq::app
