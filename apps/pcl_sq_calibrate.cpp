@@ -11,6 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -70,6 +72,22 @@ cv::Size boardSize(const std::string& text) {
   return {width, height};
 }
 
+/** \brief How deep the brackets of YAML or JSON, or the elements of XML, nest. */
+int nestingOf(const std::string& text) {
+  int depth = 0, deepest = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : '\0';
+    if (text[i] == '[' || text[i] == '{' ||
+        (text[i] == '<' && std::isalpha(static_cast<unsigned char>(next)) != 0))
+      ++depth;
+    else if (text[i] == ']' || text[i] == '}' || (text[i] == '<' && next == '/') ||
+             (text[i] == '/' && next == '>'))
+      --depth;
+    deepest = std::max(deepest, depth);
+  }
+  return deepest;
+}
+
 /** \brief Pairs of file names. */
 std::vector<std::pair<std::string, std::string>> pairsOf(const Options& o) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -82,6 +100,10 @@ std::vector<std::pair<std::string, std::string>> pairsOf(const Options& o) {
     return pairs;
   }
   std::vector<std::string> names;
+  // OpenCV's reader calls itself for each level of nesting
+  constexpr int DEEPEST = 16;
+  if (nestingOf(readFile(o.list)) > DEEPEST)
+    throw Failure("'" + o.list + "' is no OpenCV image list with pairs of names.");
   try {
     const cv::FileStorage file(o.list, cv::FileStorage::READ);
     if (file.isOpened())

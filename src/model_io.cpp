@@ -147,7 +147,9 @@ std::array<double, 4> tableFromJson(const Json& json) {
   const double length = table.head<3>().norm();
   if (!table.allFinite() || !(std::abs(length - 1.0) < 1e-3))
     throw Refusal{"the normal of \"table\" must have length one"};
-  const Eigen::Vector4d t = table / length;
+  // what was written comes back to the bit
+  const bool exact = std::abs(length - 1.0) < 1e-12;
+  const Eigen::Vector4d t = exact ? table : Eigen::Vector4d(table / length);
   return {t[0], t[1], t[2], t[3]};
 }
 

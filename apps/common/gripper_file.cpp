@@ -52,8 +52,9 @@ std::vector<CLI::ConfigItem> itemsOf(const std::string& text, const std::string&
 
 } // namespace
 
-Gripper
-gripperFromToml(const std::string& text, const std::string& path, std::string& missing) {
+Gripper gripperFromToml(const std::string& text,
+                        const std::string& path,
+                        std::string& missing) {
   Gripper gripper;
   gripper.name = path;
   const auto refuse = [&path](const std::string& what) {
@@ -87,8 +88,10 @@ gripperFromToml(const std::string& text, const std::string& path, std::string& m
     }
     // hands of millimetres are some tens wide, of metres never
     if (number > 2.0 && number <= 2000.0)
-      refuse(item.name + " = " + item.inputs[0] + " looks like millimetres; sizes are "
-             "in metres: write " + item.name + " = " + std::to_string(number / 1000.0));
+      refuse(item.name + " = " + item.inputs[0] +
+             " looks like millimetres; sizes are "
+             "in metres: write " +
+             item.name + " = " + std::to_string(number / 1000.0));
     gripper.*size->second = number;
   }
   std::string why;
@@ -115,8 +118,9 @@ Gripper readGripper(const std::string& preset_or_path) {
     return gripper;
   }
   const std::vector<std::string> names = Gripper::presetNames();
-  throw UsageError("there is no gripper " + app::quoted(preset_or_path) + "; name one of " +
-                   joined(names) + ", or a .toml file with the sizes" +
+  throw UsageError("there is no gripper " + app::quoted(preset_or_path) +
+                   "; name one of " + joined(names) +
+                   ", or a .toml file with the sizes" +
                    didYouMean(preset_or_path, names));
 }
 

@@ -14,6 +14,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq::app {
@@ -115,7 +116,8 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
 /** \brief Refuses an object of which nothing was matched but its surroundings. */
 void requireTexture(const FrontOptions& o, const FrontResult& r) {
   constexpr double LEAST = 0.05; // a label on a plain body is more
-  const int block = o.stereo.blockSizeFor(r.stereo.disparity.cols);
+  // noise of 121 pixels has a correlation of .5 once in ten million times
+  const int block = std::max(11, o.stereo.blockSizeFor(r.stereo.disparity.cols));
   if (!r.stereo.disparity.empty() && r.segment.outlined &&
       texturedShare(r.stereo, r.segment.mask, block) < LEAST)
     throw Failure("nothing on the object was matched: it has no texture, so what the "

@@ -21,8 +21,13 @@ cv::Mat grey(const cv::Mat& image) {
 double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
   constexpr double SHARED = 0.5;
   cv::Mat inner;
-  cv::erode(mask, inner, cv::Mat::ones(block, block, CV_8U), {-1, -1}, 1,
-            cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::erode(mask,
+            inner,
+            cv::Mat::ones(block, block, CV_8U),
+            {-1, -1},
+            1,
+            cv::BORDER_CONSTANT,
+            cv::Scalar(0));
   const int count = cv::countNonZero(inner);
   if (count < block * block)
     return 1.0;
@@ -48,8 +53,8 @@ double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block)
   };
   const cv::Mat l = mean(left), r = mean(right);
   const cv::Mat covariance = mean(left.mul(right)) - l.mul(r);
-  const cv::Mat variances = (mean(left.mul(left)) - l.mul(l))
-                                .mul(mean(right.mul(right)) - r.mul(r));
+  const cv::Mat variances =
+      (mean(left.mul(left)) - l.mul(l)).mul(mean(right.mul(right)) - r.mul(r));
   cv::Mat deviations;
   cv::sqrt(cv::max(variances, 0.0), deviations);
   const cv::Mat shared = covariance > SHARED * deviations;

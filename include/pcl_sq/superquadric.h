@@ -42,12 +42,13 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Largest exponent of a convex superquadric. */
   static constexpr double MAX_EPSILON = 2.0;
 
-  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], in the cloud's frame
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], the cloud's frame, to 1e20
   /** \brief Columns: the superquadric's axes in the cloud's frame. */
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones(); ///< a1, a2, a3 [m], positive
-  double epsilon1 = 1.0; ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
-  double epsilon2 = 1.0; ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
+  Eigen::Vector3d semi_axes =
+      Eigen::Vector3d::Ones(); ///< a1, a2, a3 [m], 1e-20 to 1e20
+  double epsilon1 = 1.0;       ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
+  double epsilon2 = 1.0;       ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
 
   /** \brief Whether all numbers are finite and in range and the rotation is a rotation.
    * \param[out] why the first violation as a sentence (optional) */

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo/calibration_text.h"
 
-#include "json_text.h"
 #include "pcl_sq/exception.h"
-
-#include <boost/property_tree/xml_parser.hpp>
-#include <yaml-cpp/yaml.h>
+#include "stereo/calibration_tree.h"
 
 #include <algorithm>
 #include <charconv>
@@ -15,89 +12,12 @@
 namespace pcl_sq::detail {
 namespace {
 
-// Calibrations are small and flat; what is not is none, or meant to do harm.
-constexpr int DEEPEST = 16;
-constexpr std::size_t MOST_NODES = 20000;
-constexpr std::size_t LARGEST_FILE = 1 << 20;
+using Tree = CalibrationTree;
+
+constexpr std::size_t LARGEST_FILE = 1 << 20; // a calibration is small
 
 [[noreturn]] void raise(const std::string& what) {
   throw Exception("[pcl_sq::StereoCalibration::load] " + what);
-}
-
-/** \brief The common shape of YAML, JSON and XML. */
-struct Tree {
-  enum Kind { SCALAR, LIST, MAP } kind = SCALAR;
-  std::string text;
-  std::vector<std::pair<std::string, Tree>> children; ///< names are empty in lists
-
-  const Tree* child(const std::string& name) const {
-    for (const auto& [key, value] : children)
-      if (key == name)
-        return &value;
-    return nullptr;
-  }
-};
-
-/** \brief Stops what nests or repeats itself without end (YAML's aliases can). */
-struct Bounds {
-  const std::string& file;
-  std::size_t nodes = 0;
-
-  void enter(int depth) {
-    if (depth > DEEPEST || ++nodes > MOST_NODES)
-      raise("'" + file +
-            "' nests or repeats too much for a calibration; give the "
-            "calibration's own file.");
-  }
-};
-
-Tree toTree(const YAML::Node& node, Bounds& bounds, int depth = 0) {
-  bounds.enter(depth);
-  Tree tree;
-  if (node.IsScalar())
-    tree.text = node.Scalar();
-  else if (node.IsSequence()) {
-    tree.kind = Tree::LIST;
-    for (const YAML::Node& item : node)
-      tree.children.emplace_back("", toTree(item, bounds, depth + 1));
-  } else if (node.IsMap()) {
-    tree.kind = Tree::MAP;
-    for (const auto& item : node)
-      tree.children.emplace_back(item.first.IsScalar() ? item.first.Scalar() : "",
-                                 toTree(item.second, bounds, depth + 1));
-  }
-  return tree;
-}
-
-Tree toTree(const nlohmann::ordered_json& json, Bounds& bounds, int depth = 0) {
-  bounds.enter(depth);
-  Tree tree;
-  if (json.is_structured()) {
-    tree.kind = json.is_array() ? Tree::LIST : Tree::MAP;
-    for (const auto& [key, value] : json.items())
-      tree.children.emplace_back(json.is_array() ? std::string() : key,
-                                 toTree(value, bounds, depth + 1));
-  } else if (json.is_string())
-    tree.text = json.get<std::string>();
-  else if (!json.is_null())
-    tree.text = json.dump();
-  return tree;
-}
-
-Tree toTree(const boost::property_tree::ptree& node, Bounds& bounds, int depth = 0) {
-  bounds.enter(depth);
-  Tree tree;
-  tree.text = node.data();
-  bool list = false;
-  for (const auto& [key, value] : node) {
-    if (key == "<xmlattr>" || key == "<xmlcomment>")
-      continue;
-    list = list || key == "_"; // OpenCV's name of an element of a list
-    tree.children.emplace_back(key == "_" ? "" : key, toTree(value, bounds, depth + 1));
-  }
-  if (!tree.children.empty())
-    tree.kind = list ? Tree::LIST : Tree::MAP;
-  return tree;
 }
 
 /** \brief Numbers between blanks and commas; false if one of the words is none. */
@@ -253,73 +173,6 @@ bool looksLikeLines(const std::string& text) {
   return false;
 }
 
-std::vector<CalibrationDocument> readYaml(const std::string& text,
-                                          const std::string& file) {
-  std::vector<CalibrationDocument> documents;
-  try {
-    Bounds bounds{file};
-    for (const YAML::Node& node : YAML::LoadAll(text)) {
-      if (node.IsNull())
-        continue;
-      if (!node.IsMap())
-        raise("'" + file +
-              "' is neither YAML, XML or JSON nor lines of name=value; give a "
-              "calibration file.");
-      documents.push_back({file, {}});
-      flatten(toTree(node, bounds), "", documents.back());
-    }
-  } catch (const YAML::Exception& error) {
-    raise("'" + file + "' is not valid YAML" +
-          (error.mark.is_null() ? std::string()
-                                : " at line " + std::to_string(error.mark.line + 1)) +
-          "; correct the calibration file.");
-  }
-  return documents;
-}
-
-CalibrationDocument readJson(const std::string& text, const std::string& file) {
-  CalibrationDocument document{file, {}};
-  nlohmann::ordered_json json;
-  std::string why;
-  if (!parseJson(text, json, &why))
-    raise("'" + file + "': " + why + "; correct the calibration file.");
-  Bounds bounds{file};
-  flatten(toTree(json, bounds), "", document);
-  return document;
-}
-
-/** \brief How deep the elements of an XML text nest, at most. */
-int xmlDepth(const std::string& text) {
-  int depth = 0, deepest = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i)
-    if (text[i] == '<' && text[i + 1] == '/')
-      --depth;
-    else if (text[i] == '<' && text[i + 1] != '?' && text[i + 1] != '!')
-      deepest = std::max(deepest, ++depth);
-    else if (text[i] == '/' && text[i + 1] == '>')
-      --depth;
-  return deepest;
-}
-
-CalibrationDocument readXml(const std::string& text, const std::string& file) {
-  CalibrationDocument document{file, {}};
-  Bounds bounds{file};
-  if (xmlDepth(text) > DEEPEST)
-    bounds.enter(DEEPEST + 1);
-  boost::property_tree::ptree root;
-  std::istringstream in(text);
-  try {
-    boost::property_tree::read_xml(in, root);
-  } catch (const boost::property_tree::xml_parser_error& error) {
-    raise("'" + file + "' is not valid XML at line " + std::to_string(error.line()) +
-          "; correct the calibration file.");
-  }
-  for (const auto& [name, child] : root)
-    if (name != "<xmlcomment>")
-      flatten(toTree(child, bounds), "", document);
-  return document;
-}
-
 } // namespace
 
 cv::Mat CalibrationEntry::matrix() const {
@@ -371,19 +224,26 @@ std::vector<CalibrationDocument> parseCalibrationText(const std::string& text,
           "' is no text, or longer than a calibration is; give a "
           "calibration file.");
   const std::string content = text.substr(begin);
+  std::vector<Tree> trees;
   if (content[0] == '{')
-    return {readJson(content, file)};
-  if (content[0] == '<')
-    return {readXml(content, file)};
-  if (content[0] != '%' && looksLikeLines(content)) {
+    trees = {parseJsonTree(content, file)};
+  else if (content[0] == '<')
+    trees = {parseXml(content, file)};
+  else if (content[0] != '%' && looksLikeLines(content)) {
     CalibrationDocument document{file, {}};
     if (!readLines(content, document))
       raise("'" + file +
             "' has a line that is neither name=value nor a [section]; correct the "
             "calibration file.");
     return {document};
+  } else
+    trees = parseYaml(content, file);
+  std::vector<CalibrationDocument> documents;
+  for (const Tree& tree : trees) {
+    documents.push_back({file, {}});
+    flatten(tree, "", documents.back());
   }
-  return readYaml(content, file);
+  return documents;
 }
 
 } // namespace pcl_sq::detail

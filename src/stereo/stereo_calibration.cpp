@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/stereo/stereo_calibration.h"
 
+#include "stereo/calibration_checks.h"
+
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -9,92 +11,6 @@
 
 namespace pcl_sq {
 namespace {
-
-[[noreturn]] void raise(const std::string& method, const std::string& what) {
-  throw Exception("[pcl_sq::StereoCalibration::" + method + "] " + what);
-}
-
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
-void checkShape(const cv::Mat& m, int rows, int cols, const std::string& name) {
-  if (m.empty())
-    raise("load",
-          name + " is missing; give a file that has it (the extrinsics file too?).");
-  const bool vector = rows == 3 && cols == 1 && m.total() == 3;
-  if ((m.rows != rows || m.cols != cols) && !vector)
-    raise("load",
-          name + " must be " + sizeText(rows, cols) + " but is " +
-              sizeText(m.rows, m.cols) + "; correct the calibration file.");
-  if (!cv::checkRange(m))
-    raise("load", name + " holds a number that is not finite; calibrate again.");
-}
-
-void checkRotation(const cv::Mat& m, const std::string& name) {
-  checkShape(m, 3, 3, name);
-  const cv::Mat error = m * m.t() - cv::Mat::eye(3, 3, CV_64F);
-  if (cv::norm(error) > 1e-3 || cv::determinant(m) < 0.0)
-    raise("load", name + " is not a rotation; correct the calibration file.");
-}
-
-void checkCamera(const cv::Mat& m,
-                 const cv::Mat& d,
-                 bool fisheye,
-                 const std::string& number) {
-  checkShape(m, 3, 3, "M" + number);
-  if (m.at<double>(0, 0) <= 0.0 || m.at<double>(1, 1) <= 0.0)
-    raise("load",
-          "the focal length in M" + number +
-              " must be positive; correct the calibration file.");
-  if (std::abs(m.at<double>(0, 1)) > 0.0)
-    raise("load", "M" + number + " has a skew of the pixels; calibrate without it.");
-  const std::size_t n = d.total();
-  if (fisheye && n != 0 && n != 4)
-    raise("load",
-          "D" + number + " has " + std::to_string(n) +
-              " coefficients; the equidistant (fisheye) model has 4.");
-  if (n != 0 && n != 4 && n != 5 && n != 8 && n != 12 && n != 14)
-    raise("load",
-          "D" + number + " has " + std::to_string(n) +
-              " coefficients; OpenCV knows 4, 5, 8, 12 or 14.");
-  if (n != 0 && !cv::checkRange(d))
-    raise("load",
-          "D" + number + " holds a number that is not finite; calibrate again.");
-}
-
-/** \brief Left camera and baseline of a rectified pair of projections; the offset f B
- * may stand in either of them. */
-StereoIntrinsics fromProjections(const cv::Mat& P1, const cv::Mat& P2) {
-  checkShape(P1, 3, 4, "P1");
-  checkShape(P2, 3, 4, "P2");
-  const auto entry = [](const cv::Mat& p, int i, int j) { return p.at<double>(i, j); };
-  if (!(entry(P1, 0, 0) > 0.0 && entry(P2, 0, 0) > 0.0))
-    raise("load",
-          "the focal lengths in P1 and P2 must be positive; correct the calibration.");
-  if (std::abs(entry(P2, 1, 3) - entry(P1, 1, 3)) >
-      std::abs(entry(P2, 0, 3) - entry(P1, 0, 3)))
-    raise("load",
-          "the cameras stand one above the other; turn the images by 90 degrees and "
-          "calibrate again.");
-  // rows of a rectified pair agree to a pixel, or nothing would match
-  const double across = std::abs(entry(P1, 1, 2)) / entry(P1, 0, 0);
-  if (std::abs(entry(P1, 1, 2) - entry(P2, 1, 2)) > 1.0 ||
-      std::abs(entry(P1, 1, 1) - entry(P2, 1, 1)) * std::max(across, 0.5) > 1.0 ||
-      std::abs(entry(P1, 0, 0) - entry(P2, 0, 0)) * std::max(across, 0.5) > 1.0)
-    raise("load",
-          "P1 and P2 differ in focal length or row of the principal point, so they are "
-          "not those of a rectified pair; give the projections that the stereo "
-          "calibration computed, or M1, D1, M2, D2, R, T.");
-  StereoIntrinsics k;
-  k.fx = entry(P1, 0, 0);
-  k.fy = entry(P1, 1, 1);
-  k.cx = entry(P1, 0, 2);
-  k.cy = entry(P1, 1, 2);
-  k.baseline = (entry(P1, 0, 3) - entry(P2, 0, 3)) / entry(P2, 0, 0);
-  k.doffs = entry(P2, 0, 2) - k.cx;
-  return k;
-}
 
 cv::Mat fourCoefficients(const cv::Mat& d) {
   return d.empty() ? cv::Mat(cv::Mat::zeros(4, 1, CV_64F)) : d.reshape(1, 4);
@@ -126,57 +42,55 @@ bool sameProportions(const cv::Size& a, const cv::Size& b) {
   return std::abs(a.height * scale - b.height) <= 1.0;
 }
 
-void checkIntrinsics(const StereoIntrinsics& intrinsics) {
-  std::string why;
-  if (!intrinsics.isValid(&why))
-    raise("load", why + "; correct the calibration.");
-}
-
 } // namespace
 
 StereoCalibration StereoCalibration::fromRectified(const StereoIntrinsics& intrinsics) {
-  checkIntrinsics(intrinsics);
+  detail::checkIntrinsics(intrinsics);
   StereoCalibration result;
   result.intrinsics_ = intrinsics;
   return result;
 }
 
 StereoCalibration StereoCalibration::fromRaw(const RawStereoCameras& cameras) {
-  checkCamera(cameras.M1, cameras.D1, cameras.fisheye, "1");
-  checkCamera(cameras.M2, cameras.D2, cameras.fisheye, "2");
+  detail::checkCamera(cameras.M1, cameras.D1, cameras.fisheye, "1");
+  detail::checkCamera(cameras.M2, cameras.D2, cameras.fisheye, "2");
   const bool has_rectification = !cameras.R1.empty() && !cameras.R2.empty() &&
                                  !cameras.P1.empty() && !cameras.P2.empty();
   StereoCalibration result;
   result.raw_ = cameras;
   if (has_rectification) {
-    checkRotation(cameras.R1, "R1");
-    checkRotation(cameras.R2, "R2");
-    result.intrinsics_ = fromProjections(cameras.P1, cameras.P2);
+    detail::checkRotation(cameras.R1, "R1");
+    detail::checkRotation(cameras.R2, "R2");
+    result.intrinsics_ = detail::fromProjections(cameras.P1, cameras.P2);
     result.intrinsics_.width = cameras.width;
     result.intrinsics_.height = cameras.height;
-    checkIntrinsics(result.intrinsics_);
+    detail::checkIntrinsics(result.intrinsics_);
     return result;
   }
-  checkRotation(cameras.R, "R");
-  checkShape(cameras.T, 3, 1, "T");
+  detail::checkRotation(cameras.R, "R");
+  detail::checkShape(cameras.T, 3, 1, "T");
   const double length = cv::norm(cameras.T);
   if (length == 0.0)
-    raise("load",
-          "the baseline is zero (T = 0), so disparity says nothing about depth; "
-          "correct the calibration.");
+    detail::raiseCalibration(
+        "load",
+        "the baseline is zero (T = 0), so disparity says nothing about depth; "
+        "correct the calibration.");
   if (length < 1e-3 || length > 10.0)
-    raise("load",
-          "the baseline of " + std::to_string(length) +
-              " m is not plausible; give the file's unit of length.");
+    detail::raiseCalibration(
+        "load",
+        "the baseline of " + std::to_string(length) +
+            " m is not plausible; give the file's unit of length.");
   const double* t = cameras.T.ptr<double>();
   if (std::abs(t[1]) > std::abs(t[0]))
-    raise("load",
-          "the cameras stand one above the other; turn the images by 90 degrees and "
-          "calibrate again.");
+    detail::raiseCalibration(
+        "load",
+        "the cameras stand one above the other; turn the images by 90 degrees and "
+        "calibrate again.");
   if (t[0] > 0.0)
-    raise("load",
-          "the second camera is left of the first (T points to +x); exchange the two "
-          "cameras.");
+    detail::raiseCalibration(
+        "load",
+        "the second camera is left of the first (T points to +x); exchange the two "
+        "cameras.");
   if (cameras.width > 0 && cameras.height > 0)
     result.prepareMaps({cameras.width, cameras.height});
   return result;
@@ -184,29 +98,32 @@ StereoCalibration StereoCalibration::fromRaw(const RawStereoCameras& cameras) {
 
 void StereoCalibration::checkImages(const cv::Mat& left, const cv::Mat& right) const {
   if (left.empty() || right.empty())
-    raise("rectify", "an image is empty; give two images.");
+    detail::raiseCalibration("rectify", "an image is empty; give two images.");
   if (left.size() != right.size())
-    raise("rectify",
-          "the left image is " + sizeText(left.cols, left.rows) +
-              " px and the right one " + sizeText(right.cols, right.rows) +
-              "; give two images of one size.");
+    detail::raiseCalibration(
+        "rectify",
+        "the left image is " + detail::sizeText(left.cols, left.rows) +
+            " px and the right one " + detail::sizeText(right.cols, right.rows) +
+            "; give two images of one size.");
   const int width = isRectified() ? intrinsics_.width : raw_.width;
   const int height = isRectified() ? intrinsics_.height : raw_.height;
   if (width > 0 && height > 0 && !sameProportions({width, height}, left.size()))
-    raise("rectify",
-          "the calibration is for images of " + sizeText(width, height) +
-              " px but these are " + sizeText(left.cols, left.rows) +
-              " px, of other proportions; use the calibration of this image size.");
+    detail::raiseCalibration(
+        "rectify",
+        "the calibration is for images of " + detail::sizeText(width, height) +
+            " px but these are " + detail::sizeText(left.cols, left.rows) +
+            " px, of other proportions; use the calibration of this image size.");
   // Without a size in the file the principal point tells: it is near the middle.
   const double cx = isRectified() ? intrinsics_.cx : raw_.M1.at<double>(0, 2);
   const double cy = isRectified() ? intrinsics_.cy : raw_.M1.at<double>(1, 2);
   if ((width == 0 || height == 0) && (cx < 0.25 * left.cols || cx > 0.75 * left.cols ||
                                       cy < 0.25 * left.rows || cy > 0.75 * left.rows))
-    raise("rectify",
-          "the principal point (" + std::to_string(cx) + ", " + std::to_string(cy) +
-              ") is far from the middle of the images of " +
-              sizeText(left.cols, left.rows) +
-              " px; use the calibration of this image size.");
+    detail::raiseCalibration("rectify",
+                             "the principal point (" + std::to_string(cx) + ", " +
+                                 std::to_string(cy) +
+                                 ") is far from the middle of the images of " +
+                                 detail::sizeText(left.cols, left.rows) +
+                                 " px; use the calibration of this image size.");
 }
 
 void StereoCalibration::scaleTo(const cv::Size& size) {
@@ -215,9 +132,10 @@ void StereoCalibration::scaleTo(const cv::Size& size) {
   const bool unknown = width == 0 || height == 0;
   if (!unknown && cv::Size(width, height) != size) {
     const double scale = static_cast<double>(size.width) / width;
-    notes_.push_back("the calibration is for images of " + sizeText(width, height) +
+    notes_.push_back("the calibration is for images of " +
+                     detail::sizeText(width, height) +
                      " px; it was scaled to images of " +
-                     sizeText(size.width, size.height) + " px");
+                     detail::sizeText(size.width, size.height) + " px");
     // pixel centres lie on integers
     const auto place = [scale](double c) { return (c + 0.5) * scale - 0.5; };
     const auto camera = [&](cv::Mat& m) {
@@ -267,10 +185,10 @@ void StereoCalibration::prepareMaps(const cv::Size& size) {
                         0.0);
     }
   }
-  intrinsics_ = fromProjections(c.P1, c.P2);
+  intrinsics_ = detail::fromProjections(c.P1, c.P2);
   intrinsics_.width = size.width;
   intrinsics_.height = size.height;
-  checkIntrinsics(intrinsics_);
+  detail::checkIntrinsics(intrinsics_);
   const auto makeMaps = [&](const cv::Mat& m,
                             const cv::Mat& d,
                             const cv::Mat& r,
@@ -303,9 +221,10 @@ void StereoCalibration::rectify(const cv::Mat& left,
     cv::remap(left, rectified_left, maps_[0], maps_[1], cv::INTER_LINEAR);
     cv::remap(right, rectified_right, maps_[2], maps_[3], cv::INTER_LINEAR);
   } catch (const cv::Exception&) {
-    raise("rectify",
-          "the calibration cannot be applied to images of " +
-              sizeText(left.cols, left.rows) + " px; calibrate again.");
+    detail::raiseCalibration("rectify",
+                             "the calibration cannot be applied to images of " +
+                                 detail::sizeText(left.cols, left.rows) +
+                                 " px; calibrate again.");
   }
 }
 

@@ -77,6 +77,7 @@ TEST(FramesApp, OnlyAKnownViewpointMakesSidesUnseen) {
   can.semi_axes = {0.03, 0.03, 0.06};
   can.epsilon1 = 0.1;
   can.center = {0.0, 0.0, 0.7};
+  can.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0; // upright, y down
   std::ostringstream text;
   for (const Eigen::Vector3d& p : sampleUniform(can, 4000))
     text << p.transpose() << "\n";

@@ -88,8 +88,9 @@ TEST_P(Program, HelpHasGroupsAndFitsATerminal) {
   bool examples = false;
   while (std::getline(lines, line)) {
     examples = examples || line == "Examples:";
-    if (!examples) // a command line is not broken
+    if (!examples) { // a command line is not broken
       EXPECT_LE(line.size(), 80u) << line;
+    }
   }
   EXPECT_TRUE(examples);
   for (const char* group :
@@ -159,15 +160,16 @@ TEST_P(Program, OptionsWithoutEffectAreRefused) {
     }
   }
   const std::string program = GetParam();
-  if (program == "pcl_sq_fit")
+  if (program == "pcl_sq_fit") {
     EXPECT_EQ(refused,
               (std::set<std::string>{"--gripper",
                                      "--friction",
                                      "--clearance",
                                      "--min-observed",
                                      "--grasp-threshold"}));
-  if (program == "pcl_sq_evaluate")
+  } else if (program == "pcl_sq_evaluate") {
     EXPECT_EQ(refused, (std::set<std::string>{"--pose", "--symmetry", "--samples"}));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All,
@@ -183,7 +185,9 @@ INSTANTIATE_TEST_SUITE_P(All,
                                          "pcl_sq_calibrate",
 #endif
                                          "pcl_sq_evaluate"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& program) {
+                           return std::string(program.param);
+                         });
 
 TEST(OptionRules, HoldForOptionsThatExist) {
   std::set<std::string> known;
