@@ -3,6 +3,7 @@
 #include "app.h"
 #include "files.h"
 #include "grasp_output.h"
+#include "graspit_folder.h"
 #include "model_options.h"
 #include "summary.h"
 #include "value_checks.h"
@@ -84,6 +85,8 @@ int plan(const std::string& input_path,
     throw app::Failure(plan.failure);
   const std::string json = app::graspsToJson(
       plan, scene, options, input.file.frame, input_path, milliseconds);
+  if (options.graspit_name.empty())
+    options.graspit_name = app::graspitName(input_path);
   app::writeGraspOutputs(input.file.model, plan, scene, options, json);
   if (!app::quiet())
     app::printGrasps(plan, options, milliseconds);

@@ -2,6 +2,7 @@
 #include "pcl_sq/grasp_planner.h"
 
 #include "grasp_search.h"
+#include "largest_radius.h"
 #include "pcl_sq/grasp_quality.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ bool GraspPlannerOptions::isValid(std::string* why) const {
                               min_distance,
                               cloud_tolerance,
                               observed_distance,
-                              torsional_friction})
+                              patch_radius})
     if (!within(length, 0.0, 1.0))
       return fail("a length is outside [0, 1] m");
   if (opening <= 0.0)
@@ -129,14 +130,15 @@ void GraspSearch::finish(GraspPlan& plan) const {
         return a.scores.total > b.scores.total;
       });
   plan.wrench_origin = centre_;
-  plan.wrench_length = radius_;
+  plan.wrench_length = largestRadius(object_, centre_);
   if (!options_.wrench_quality)
     return;
   WrenchOptions wrench;
   wrench.friction = options_.friction;
-  wrench.torsional_friction = options_.torsional_friction;
+  wrench.torsional_friction =
+      softFingerTorsion(options_.friction, options_.patch_radius);
   wrench.origin = centre_;
-  wrench.torque_length = radius_;
+  wrench.torque_length = plan.wrench_length;
   for (Grasp& grasp : plan.grasps) {
     const WrenchQuality quality = wrenchQuality(grasp.contacts, wrench);
     grasp.epsilon = quality.epsilon;

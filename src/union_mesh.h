@@ -5,7 +5,29 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Closed surface min_k G_k = 1 by marching tetrahedra, vertices exact on it. */
+/** \brief A closed mesh of a union's surface that knows the part behind each triangle.
+ * Where two parts meet there are edges: no triangle belongs to both. */
+struct PartMesh {
+  TriangleMesh mesh;
+  std::vector<std::size_t> part; ///< one index per triangle
+};
+
+/** \brief The surface of a union by marching tetrahedra, vertices on it.
+ * \param[in] resolution cells along the longest side of the bounding box */
+PartMesh marchUnion(const MultiSuperquadric& model, int resolution);
+
+/** \brief Closed surface of a union without needles, for
+ * MultiSuperquadric::meshUnion(). \param[in] resolution as of marchUnion() */
 TriangleMesh meshUnion(const MultiSuperquadric& model, int resolution);
+
+/** \brief A closed mesh of the union's surface with few triangles.
+ * \param[in] tolerance largest distance of mesh and surface [m] */
+TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance);
+
+/** \brief A point on the surfaces of all the parts named, near to \a point.
+ * \return whether one was found */
+[[nodiscard]] bool ontoParts(const MultiSuperquadric& model,
+                             const std::vector<std::size_t>& parts,
+                             Eigen::Vector3d& point);
 
 } // namespace pcl_sq::detail

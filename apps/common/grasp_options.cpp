@@ -3,6 +3,8 @@
 #include "files.h"
 #include "grasp_output.h"
 #include "gripper_file.h"
+
+#include "pcl_sq/graspit_export.h"
 #include "value_checks.h"
 
 #include <nlohmann/json.hpp>
@@ -70,10 +72,29 @@ void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
   cli.add_option("--count", options.planner.count, "Most grasps to give")
       ->check(wholeNumber(1, 10000))
       ->capture_default_str();
-  cli.add_option("--graspit", options.graspit, "Folder for files that GraspIt! reads")
+  cli.add_option(
+         "--graspit",
+         options.graspit,
+         "GraspIt! folder (the one GRASPIT points to) for a world, the body, its "
+         "table and the grasps as lines for the Barrett hand; friction is not "
+         "among them, and gravity there is along -z")
       ->type_name("DIR");
-  cli.add_flag(
-      "--graspit-parts", options.part_bodies, "One more GraspIt! body for each part");
+  cli.add_option(
+         "--graspit-name",
+         options.graspit_name,
+         "Name of GraspIt!'s files, by default that of the input; only files of "
+         "the same name are replaced")
+      ->type_name("NAME")
+      ->check([](const std::string& name) {
+        GraspitOptions settings;
+        settings.name = name;
+        return settings.isValid()
+                   ? std::string()
+                   : std::string("a name has letters, digits, _ and - only");
+      });
+  cli.add_flag("--graspit-parts",
+               options.part_bodies,
+               "One more GraspIt! body for each part, and a world with them");
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   cli.add_option("--snapshot", options.snapshot, "Picture with the hand as PNG")
       ->type_name("FILE");

@@ -3,10 +3,11 @@
 
 #include "app.h"
 #include "files.h"
+#include "graspit_folder.h"
 #include "offset.h"
 
 #include "pcl_sq/config.h"
-#include "pcl_sq/graspit_export.h"
+#include "pcl_sq/grasp_quality.h"
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "pcl_sq/visualization/snapshot_renderer.h"
@@ -16,7 +17,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 
 namespace pcl_sq::app {
 
@@ -172,12 +172,9 @@ void writeGraspit(const MultiSuperquadric& model,
   settings.table_offset = scene.table_offset;
   settings.grasps = plan.grasps;
   settings.gripper = options.gripper;
-  for (const TextFile& file : graspitFiles(model, settings)) {
-    const std::filesystem::path path =
-        std::filesystem::path(options.graspit) / file.path;
-    makeFolder(path.parent_path().string());
-    writeOutput(path.string(), file.contents);
-  }
+  settings.name = options.graspit_name;
+  settings.retreat = options.planner.retreat;
+  writeGraspitFolder(options.graspit, settings.name, graspitFiles(model, settings));
 }
 
 } // namespace
@@ -219,9 +216,11 @@ std::string graspsToJson(const GraspPlan& plan,
                      scene.table_normal.z(),
                      scene.table_offset};
   const Eigen::Vector3d& origin = plan.wrench_origin;
-  json["wrench"] = {{"origin", {origin.x(), origin.y(), origin.z()}},
-                    {"torque_length", plan.wrench_length},
-                    {"torsional_friction", options.planner.torsional_friction}};
+  json["wrench"] = {
+      {"origin", {origin.x(), origin.y(), origin.z()}},
+      {"torque_length", plan.wrench_length},
+      {"torsional_friction",
+       softFingerTorsion(options.planner.friction, options.planner.patch_radius)}};
   json["grasps"] = Json::array();
   for (const Grasp& grasp : plan.grasps)
     json["grasps"].push_back(toJson(grasp));

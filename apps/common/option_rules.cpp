@@ -219,7 +219,7 @@ const std::vector<OptionRule>& optionRules() {
        [](const Line& l) { return l.given("--grasp-points"); },
        "it goes with --grasp-points FILE"},
       {{"pcl_sq_grasp"},
-       {"--graspit-parts"},
+       {"--graspit-parts", "--graspit-name"},
        [](const Line& l) { return l.given("--graspit"); },
        "it goes with --graspit DIR"},
       {{"pcl_sq_grasp"},

@@ -38,9 +38,11 @@ struct PCL_SQ_EXPORTS GraspPlannerOptions {
   /** \brief Grasps with a smaller GraspScores::observed are not given, [0, 1]: where
    * hardly anything was seen of both contacts, the model is a guess. */
   double min_observed = 0.3;
-  int min_obstacle_points = 3;       ///< in a cube of 5 mm, fewer are noise, [1, 1000]
-  bool wrench_quality = false;       ///< compute Grasp::epsilon and volume (slow)
-  double torsional_friction = 0.005; ///< torque over normal force of a pad [m], >= 0
+  int min_obstacle_points = 3; ///< in a cube of 5 mm, fewer are noise, [1, 1000]
+  bool wrench_quality = false; ///< compute Grasp::epsilon and volume (slow)
+  /** \brief Of the contact of a pad with the object [m], half the width of a pad; see
+   * softFingerTorsion(). 0 is a point contact. */
+  double patch_radius = 0.01;
   GraspWeights weights;
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
@@ -80,7 +82,7 @@ struct GraspPlan {
   std::vector<Grasp> grasps; ///< best first
   GraspRejections rejections;
   /** \brief What Grasp::epsilon and volume refer to: torques about the centre of
-   * gravity over the radius of a ball about it that holds the object [m]. */
+   * gravity over the largest distance of the surface from it [m]. */
   Eigen::Vector3d wrench_origin = Eigen::Vector3d::Zero();
   double wrench_length = 0.0;
   /** \brief Empty, or why there is no grasp and what came nearest to one. */

@@ -8,14 +8,16 @@ namespace pcl_sq {
 /** \brief How contacts transmit forces. */
 struct PCL_SQ_EXPORTS WrenchOptions {
   double friction = 0.5; ///< coefficient mu, [0, 5]
-  /** \brief Largest torque about the normal over the normal force [m], >= 0; 0 is a
-   * point contact. Tangential force and torque share an ellipse (Howe and Cutkosky
-   * 1996): |f_t|^2 / mu^2 + torque^2 / torsional_friction^2 <= f_n^2. */
-  double torsional_friction = 0.005;
+  /** \brief Largest torque about the normal over the normal force [m], >= 0, as
+   * softFingerTorsion() gives it; 0 is a point contact. Tangential force and torque
+   * share an ellipse (Howe and Cutkosky 1996): |f_t|^2 / mu^2 + torque^2 /
+   * torsional_friction^2 <= f_n^2. */
+  double torsional_friction = 8.0 / 15.0 * 0.5 * 0.01;
   /** \brief Point about which torques are taken: the centre of gravity [m]. */
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   /** \brief Length rho by which torques are divided [m], > 0: the object's largest
-   * radius, so that epsilon does not depend on the unit. */
+   * radius, that is the largest distance of its surface from the centre of gravity, so
+   * that epsilon does not depend on the unit (GraspIt! does the same). */
   double torque_length = 0.1;
   int cone_edges = 8; ///< of each cone in the hull (volume, lower bound), [4, 64]
 
@@ -33,6 +35,19 @@ struct WrenchQuality {
   double epsilon_lower = 0.0; ///< the same for cones cut into edges, by Qhull
   double volume = 0.0; ///< of the hull of the cones' edges; 0 without force closure
 };
+
+/** \brief Largest torque about the normal over the normal force of a soft finger [m]:
+ * 8/15 mu a. It grows with the friction as the tangential force does.
+ *
+ * A layer of rubber presses the more the deeper it is dented, p ~ 1 - (r/a)^2 within a
+ * patch of radius a (the "mattress", Johnson 1985, Contact Mechanics, section 4.3).
+ * Sliding all round, mu r p integrates to 8/15 mu a times the normal force; GraspIt!
+ * takes the same (Ciocarlie, Lackner and Allen 2007, "Soft finger model with adaptive
+ * contact geometry for grasping and manipulation tasks").
+ * \param[in] friction coefficient mu \param[in] patch_radius a [m] */
+inline double softFingerTorsion(double friction, double patch_radius) {
+  return 8.0 / 15.0 * friction * patch_radius;
+}
 
 /** \brief Largest wrench of the hull along a direction: the support function of the
  * grasp wrench space, in closed form for round cones. \param[in] direction force, then

@@ -98,6 +98,23 @@ int xmlDepth(const std::string& text) {
   return deepest;
 }
 
+/** \brief The documents of a YAML text, between lines of "---": YAML::LoadAll() never
+ * ends on some texts that are damaged. Directives (%YAML:1.0) have nothing to say. */
+std::vector<std::string> documentsOf(const std::string& text) {
+  std::vector<std::string> documents(1);
+  std::istringstream in(text);
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line); ++lines) {
+    const bool directive = line.rfind('%', 0) == 0;
+    if (line.rfind("---", 0) == 0) {
+      documents.emplace_back(lines, '\n'); // messages count the text's lines
+      line.erase(0, 3);
+    }
+    documents.back() += (directive ? std::string() : line) + "\n";
+  }
+  return documents;
+}
+
 } // namespace
 
 const CalibrationTree* CalibrationTree::child(const std::string& name) const {
@@ -112,7 +129,8 @@ std::vector<CalibrationTree> parseYaml(const std::string& text,
   std::vector<CalibrationTree> documents;
   try {
     Bounds bounds{file};
-    for (const YAML::Node& node : YAML::LoadAll(text)) {
+    for (const std::string& part : documentsOf(text)) {
+      const YAML::Node node = YAML::Load(part);
       if (node.IsNull())
         continue;
       if (!node.IsMap())

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <fstream>
+
 using namespace pcl_sq;
 using namespace pcl_sq::test;
 
@@ -102,11 +105,56 @@ TEST(GraspApp, GraspitFilesReferToEachOther) {
   const ProgramRun run = runProgram(
       "pcl_sq_grasp", {model, "--table", "0,0,1,0", "--graspit", folder / "graspit"});
   ASSERT_EQ(run.code, 0) << run.err;
-  const std::string world = slurp(folder / "graspit/worlds/object.xml");
+  const std::string world = slurp(folder / "graspit/worlds/can.xml");
   for (const std::string file :
-       {"models/objects/object.xml", "models/obstacles/object_table.xml"}) {
+       {"models/objects/can.xml", "models/obstacles/can_table.xml"}) {
     EXPECT_NE(world.find("<filename>" + file + "</filename>"), std::string::npos);
     EXPECT_FALSE(slurp(folder / ("graspit/" + file)).empty()) << file;
   }
-  EXPECT_FALSE(slurp(folder / "graspit/models/objects/object.off").empty());
+  EXPECT_FALSE(slurp(folder / "graspit/models/objects/can.off").empty());
+}
+
+TEST(GraspApp, GraspitExportsOfOtherNamesStayAndOwnFilesAreReplacedWhole) {
+  const Folder folder;
+  const std::string can = folder.write("can.json", canJson(0.03));
+  const std::string cup = folder.write("cup.json", canJson(0.04));
+  const std::string out = folder / "graspit";
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--graspit", out});
+    return runProgram("pcl_sq_grasp", more);
+  };
+  ASSERT_EQ(run({can, "--table", "0,0,1,0", "--graspit-parts"}).code, 0);
+  const std::string before = slurp(out + "/models/objects/can.off");
+  const std::string list = slurp(out + "/can_files.txt");
+  ASSERT_EQ(run({cup}).code, 0);
+  EXPECT_EQ(slurp(out + "/models/objects/can.off"), before);
+  EXPECT_EQ(slurp(out + "/can_files.txt"), list);
+  EXPECT_NE(slurp(out + "/models/objects/cup.off"), before);
+  // again, without table and parts: nothing of the first is left behind
+  ASSERT_EQ(run({cup, "--graspit-name", "can"}).code, 0);
+  EXPECT_EQ(slurp(out + "/models/objects/can.off"),
+            slurp(out + "/models/objects/cup.off"));
+  for (const std::string gone : {"/models/obstacles/can_table.off",
+                                 "/models/obstacles/can_table.xml",
+                                 "/models/objects/can_part0.xml",
+                                 "/worlds/can_parts.xml"})
+    EXPECT_FALSE(std::ifstream(out + gone).good()) << gone;
+  EXPECT_TRUE(std::ifstream(out + "/worlds/cup.xml").good());
+}
+
+TEST(GraspApp, GraspitFilesOfOtherOriginAreNotReplaced) {
+  const Folder folder;
+  const std::string mug = folder.write("mug.json", canJson(0.03));
+  std::filesystem::create_directories(folder / "graspit/models/objects");
+  folder.write("graspit/models/objects/mug.xml", "GraspIt!'s own");
+  const ProgramRun run =
+      runProgram("pcl_sq_grasp", {mug, "--graspit", folder / "graspit"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("--graspit-name"), std::string::npos) << run.err;
+  EXPECT_EQ(slurp(folder / "graspit/models/objects/mug.xml"), "GraspIt!'s own");
+  EXPECT_FALSE(std::filesystem::exists(folder / "graspit/worlds/mug.xml"));
+  EXPECT_EQ(runProgram("pcl_sq_grasp",
+                       {mug, "--graspit", folder / "graspit", "--graspit-name", "a/b"})
+                .code,
+            2);
 }
