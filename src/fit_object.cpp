@@ -153,9 +153,9 @@ Split bestSplit(const PieceContext& context,
  * the one solid of revolution, for where neither fits, the free one may be too flat. */
 SupportPlane backOf(const SupportFit& whole, const ObservedObject& observed) {
   SupportPlane back;
-  back.normal = (whole.fit.model.center - observed.camera.center).normalized();
+  back.normal = (whole.straight().center - observed.camera.center).normalized();
   back.offset = 0.0;
-  double farthest = back.residual(whole.fit.model);
+  double farthest = back.residual(whole.straight());
   // bare points have no outline worth the name that would tell
   if (!observed.pixels.cells.empty())
     for (const ShapeCandidate& c : whole.candidates)

@@ -110,16 +110,6 @@ Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
     s.kx = taper[0];
     s.ky = taper[1];
   }
-  if (may_taper && part.contains("taper")) {
-    const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
-    s.kx = taper[0];
-    s.ky = taper[1];
-  }
-  if (may_taper && part.contains("taper")) {
-    const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
-    s.kx = taper[0];
-    s.ky = taper[1];
-  }
   std::string why;
   if (!s.isValid(&why))
     throw Refusal{"superquadric " + std::to_string(index) + ": " + why};

@@ -14,8 +14,8 @@ namespace pcl_sq::detail {
  * one onto the other. Seams of parts stay edges. */
 class SurfaceRemesher {
 public:
-  /** \param[in] mesh closed, its vertices on the surface of \a model, which must outlive
-   * this \param[in] tolerance largest distance of mesh and surface [m] */
+  /** \param[in] mesh closed, its vertices on the surface of \a model, which must
+   * outlive this \param[in] tolerance largest distance of mesh and surface [m] */
   SurfaceRemesher(const PartMesh& mesh,
                   const MultiSuperquadric& model,
                   double tolerance);

@@ -60,7 +60,7 @@ std::string valueFor(const std::string& option, const std::string& type) {
   return value;
 }
 
-class Program : public testing::TestWithParam<const char*> {};
+class Program : public testing::TestWithParam<std::string> {};
 
 ProgramRun runWith(const std::string& program, std::vector<std::string> more) {
   std::vector<std::string> arguments = enough(program);
@@ -172,22 +172,25 @@ TEST_P(Program, OptionsWithoutEffectAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         Program,
-                         testing::Values("pcl_sq_fit",
-                                         "pcl_sq_grasp",
+/** \brief The programs that were built. */
+std::vector<std::string> builtPrograms() {
+  return {"pcl_sq_fit",
+          "pcl_sq_grasp",
 #ifdef PCL_SQ_TEST_SNAPSHOT
-                                         "pcl_sq_snapshot",
+          "pcl_sq_snapshot",
 #endif
 #ifdef PCL_SQ_TEST_STEREO
-                                         "pcl_sq_stereo",
-                                         "pcl_sq_render",
-                                         "pcl_sq_calibrate",
+          "pcl_sq_stereo",
+          "pcl_sq_render",
+          "pcl_sq_calibrate",
 #endif
-                                         "pcl_sq_evaluate"),
-                         [](const auto& program) {
-                           return std::string(program.param);
-                         });
+          "pcl_sq_evaluate"};
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         Program,
+                         testing::ValuesIn(builtPrograms()),
+                         [](const auto& program) { return program.param; });
 
 TEST(OptionRules, HoldForOptionsThatExist) {
   std::set<std::string> known;

@@ -149,7 +149,7 @@ TEST(ModelIo, RefusesWhatIsNoModelAndSaysWhy) {
     EXPECT_TRUE(file.frame.empty() && file.model.empty());
   };
   refuses(good, "pcl_sq/model", "other", "not a pcl_sq/model");
-  refuses(good, "\"version\": 1", "\"version\": 3", "version 3");
+  refuses(good, "\"version\": 1", "\"version\": 4", "version 4");
   refuses(good, "\"unit\": \"m\"", "\"unit\": \"mm\"", "unit");
   refuses(good, "\"semi_axes\": [", "\"semi_axes\": [0.1, ", "numbers");
   refuses(good, "\"semi_axes\"", "\"axes\"", "missing");

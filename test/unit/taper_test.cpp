@@ -241,7 +241,7 @@ TEST(Taper, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
       } else
         EXPECT_GE(distances[k], 0.999 * reach) << "case " << i;
   }
-  EXPECT_GT(kept, 1000);
+  EXPECT_GT(kept, 500);
 }
 
 TEST(Taper, ClosestPointIsThatOfDensePlaces) {
