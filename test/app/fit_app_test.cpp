@@ -319,7 +319,7 @@ TEST(FitApp, RegionsThatMissAndGridsThatAreTooFineAreRefused) {
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
   expectRefusal(folder, {cloud, "--box", "5,5,5,6,6,6"});
   expectRefusal(folder, {cloud, "--roi", "1,2,3,4"}); // not organized
-  expectRefusal(folder, {cloud, "--divisions", "10000,10000,10000"});
+  expectRefusal(folder, {cloud, "--divisions", "10000,10000,10000"}, 2);
 }
 
 TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {

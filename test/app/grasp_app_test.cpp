@@ -83,8 +83,9 @@ TEST(GraspApp, BadInputIsOneSentenceAndTheRightCode) {
   expectRefusal({model, "--table", "0,0,0,1"}, 2, "--table");
   expectRefusal(
       {model, "--gripper", folder.write("a.toml", "wings = 2\n")}, 2, "wings");
-  expectRefusal(
-      {model, "--gripper", folder.write("b.toml", "max_opening = -1\n")}, 2, "size");
+  expectRefusal({model, "--gripper", folder.write("b.toml", "max_opening = -1\n")},
+                2,
+                "max_opening");
 }
 
 TEST(GraspApp, ATomlFileDescribesAGripper) {

@@ -54,7 +54,9 @@ std::string valueFor(const std::string& option, const std::string& type) {
   if (type == "FILE" || type == "DIR" || type == "TEXT" || type == "POSE")
     return "name.png";
   const auto commas = std::size_t(std::count(type.begin(), type.end(), ','));
-  std::string value = option == "--block-size" ? "5" : "1";
+  std::string value = option == "--block-size" ? "5"
+                      : option == "--samples"  ? "5000"
+                                               : "1";
   for (std::size_t i = 0; i < commas; ++i)
     value += ",1";
   return value;
@@ -150,6 +152,8 @@ TEST_P(Program, OptionsWithoutEffectAreRefused) {
   // every rule that forbids something in a plain command line
   std::set<std::string> refused;
   for (const Option& option : optionsOf(GetParam())) {
+    if (option.name == "--depth")
+      continue; // which makes the line's own calibration needless
     std::vector<std::string> more = {option.name};
     if (!option.type.empty())
       more.push_back(valueFor(option.name, option.type));

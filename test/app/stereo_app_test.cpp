@@ -95,17 +95,17 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   const std::string l = file("left.png"), r = file("right.png"), c = file("calib.yml");
   expectRefusal({l, r}, "--calib is missing", 2);
   expectRefusal({l, "--calib", c}, "right image", 2);
-  expectRefusal({"no.png", r, "--calib", c}, "cannot read the image");
+  expectRefusal({"no.png", r, "--calib", c}, "does not exist");
   expectRefusal({l, r, "--calib", "no.yml"}, "cannot read 'no.yml'");
   expectRefusal({r, l, "--calib", c}, "exchange left and right");
   expectRefusal({l, r, "--calib", c, "--roi", "900,900,50,50"}, "outside");
-  expectRefusal({l, r, "--calib", c, "--roi", "10,10,0,50"}, "positive", 2);
+  expectRefusal({l, r, "--calib", c, "--roi", "10,10,0,50"}, "above 0", 2);
   expectRefusal({l, r, "--calib", c, "--matcher", "magic"}, "magic", 2);
   expectRefusal({l, r, "--calib", c, "--block-size", "4"}, "odd", 2);
   expectRefusal({l, r, "--calib", c, "--clik", "3,4"}, "--clik", 2);
   expectRefusal({l, r, "--calib", c, "--segment", "none"}, "needs --roi", 2);
   expectRefusal({l, r, "--calib", c, "--click", "5000,10"}, "within it");
-  expectRefusal({l, r, "--calib", c, "--color", "300,0,0"}, "not in range", 2);
+  expectRefusal({l, r, "--calib", c, "--color", "300,0,0"}, "from 0 to 255", 2);
   expectRefusal({l, r, "--calib", c, "--color", "255,0,255"}, "give another one");
   expectRefusal({l, file("mask.png"), "--calib", c}, "nothing matches");
   const Folder folder;
@@ -120,7 +120,7 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   expectRefusal({l, r, "--calib", zero}, "baseline is zero");
   const std::string other = folder.write(
       "other.txt",
-      "f=811.6\ncx=319.5\ncy=239.5\nbaseline=0.1\nwidth=320\nheight=240\n");
+      "f=811.6\ncx=319.5\ncy=239.5\nbaseline=0.1\nwidth=320\nheight=200\n");
   expectRefusal({l, r, "--calib", other}, "calibration is for");
 }
 

@@ -45,7 +45,7 @@ projection_matrix: {{rows: 3, cols: 4, data: [{f}, 0, {cx}, {move}, 0, {f}, {cy}
 
 
 def run(command, folder):
-    environment = dict(os.environ, HOME=folder,
+    environment = dict(os.environ, HOME=folder, GRASPIT=os.path.join(folder, "graspit"),
                        PATH=programs + os.pathsep + os.environ["PATH"])
     return subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
