@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # pkg_config.sh COMPONENT OPTION SOURCE PROGRAM: builds and runs a user's file with
-# pkg-config alone; OPTION is --static or nothing.
+# pkg-config alone; OPTION is --static, or
+# --print-errors where nothing is wanted (CMake drops empty arguments).
 set -eu
 # words are wanted here and below: each of these variables holds several arguments
 # shellcheck disable=SC2086
