@@ -36,7 +36,7 @@ private:
   bool decompose();
   bool fitObject(MultiSuperquadric& model);
   bool fitParts(MultiSuperquadric& model);
-  void evaluate(const MultiSuperquadric& model);
+  bool evaluate(MultiSuperquadric& model);
   void findGraspPoints(const MultiSuperquadric& model);
 
   /** \brief Points of the cloud as columns. */
@@ -68,11 +68,7 @@ bool SurfaceEstimator::estimate(MultiSuperquadric& model) {
   // III-B, Eqs. (4)-(7): one superquadric per prism; their union is the object
   found = found &&
           timer.run("fit", [&] { return parts ? fitObject(model) : fitParts(model); });
-  if (found)
-    timer.run("evaluate", [&] {
-      evaluate(model);
-      return true;
-    });
+  found = found && timer.run("evaluate", [&] { return evaluate(model); });
   // III-C, end: the points on the union's surface are where a hand may touch
   if (found)
     timer.run("grasp_points", [&] {
@@ -244,12 +240,25 @@ bool SurfaceEstimator::fitParts(MultiSuperquadric& model) {
               "side of the object");
 }
 
-void SurfaceEstimator::evaluate(const MultiSuperquadric& model) {
+bool SurfaceEstimator::evaluate(MultiSuperquadric& model) {
   report_.object_indices = object_;
   const Eigen::Matrix3Xf points = gather(object_);
   const SurfaceStatistics statistics = model.statistics(points);
   report_.distortion = statistics.distortion;
   report_.rms_distance = statistics.rms_distance;
+  // Even the ball that fits a cube best lies within .08 of the cube's side: what lies
+  // farther off, in the mean, is no surface of the model that was found. A number of
+  // parts that is asked for is the user's own choice.
+  constexpr double FARTHEST = 0.1;
+  const double longest = model.boundingBox().sizes().maxCoeff();
+  const bool found_freely =
+      options_.decomposition == Decomposition::PARTS && options_.object_fit.parts == 0;
+  if (!found_freely || !(statistics.rms_distance > FARTHEST * longest))
+    return true;
+  model = {};
+  return fail("the object's points lie too far from any model of it, by more than a "
+              "tenth of its size: they are no one thing, or noise; give the object's "
+              "region or mask, or more texture to a stereo pair");
 }
 
 void SurfaceEstimator::findGraspPoints(const MultiSuperquadric& model) {

@@ -115,3 +115,26 @@ TEST(BestMode, TableInFrontOfTheObjectIsLeftOutAndTheReportSaysSo) {
             std::string::npos);
   EXPECT_NEAR(model.parts[0].volume() / scene.object.parts[0].volume(), 1.0, 0.15);
 }
+
+TEST(BestMode, PointsThatAreNoSurfaceAreRefused) {
+  Random random(12);
+  auto cloud = pcl::make_shared<Cloud>();
+  for (int i = 0; i < 1500; ++i)
+    cloud->emplace_back(static_cast<float>(random.normal(0.05)),
+                        static_cast<float>(random.normal(0.04)),
+                        static_cast<float>(0.8 + random.normal(0.06)));
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  EstimationOptions options;
+  options.object_fit.max_parts = 1;
+  estimation.setOptions(options);
+  MultiSuperquadric model;
+  EXPECT_FALSE(estimation.estimate(model));
+  EXPECT_TRUE(model.empty());
+  EXPECT_NE(estimation.getReport().failure.find("too far"), std::string::npos)
+      << estimation.getReport().failure;
+  // a number that is asked for is made
+  options.object_fit.parts = 1;
+  estimation.setOptions(options);
+  EXPECT_TRUE(estimation.estimate(model));
+}
