@@ -24,7 +24,7 @@ using namespace pcl_sq;
 namespace {
 
 const char* const DESCRIPTION = "Fits a union of superquadrics to the object in a "
-                                "point cloud (PCD, PLY, OBJ, XYZ).";
+                                "point cloud (PCD, PLY, OBJ, STL or text).";
 const char* const EXAMPLES =
     "  pcl_sq_fit cup.pcd -o cup.json --snapshot cup.png\n"
     "  pcl_sq_fit scene.pcd --remove-plane --mesh object.ply\n"

@@ -46,7 +46,7 @@ void parseSize(const std::string& text, SnapshotOptions& options) {
 void configure(CLI::App& cli, Arguments& a) {
   cli.add_option("model", a.model, "Model file; may be left out if there is a cloud")
       ->type_name("MODEL.json");
-  cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, XYZ)")
+  cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, STL or text)")
       ->type_name("FILE");
   app::addCloudOptions(cli, a.cloud_options);
   cli.add_option("-o,--output", a.output, "Picture, ends in .png; -: standard output")
