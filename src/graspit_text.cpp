@@ -44,15 +44,18 @@ std::vector<Primitive> candidates(const Eigen::Vector3d& a) {
 
 Primitive closestPrimitive(const Superquadric& part) {
   const std::vector<Primitive> all = candidates(part.semi_axes);
-  Eigen::Vector3d reach = part.semi_axes;
+  Eigen::Vector3d reach = part.halfSizes();
   for (const Primitive& p : all)
     reach = reach.cwiseMax(p.half_sizes);
   std::vector<int> both(all.size()), either(all.size());
-  for (int i = 0; i < CELLS * CELLS * CELLS; ++i) {
+  const int layers = part.isTapered() ? 2 * CELLS : CELLS;
+  for (int i = 0; i < CELLS * CELLS * layers; ++i) {
     const Eigen::Vector3d cell(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS);
-    // all shapes are symmetric: an eighth of the box is enough
-    const Eigen::Vector3d p =
-        ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
+    // all shapes are symmetric, but a tapered part across z: an eighth of the box is
+    // enough, or a quarter
+    Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
+    if (p.z() > reach.z())
+      p.z() = reach.z() - p.z();
     const bool in_part = part.gauge(part.toWorld(p)) <= 1.0;
     for (std::size_t k = 0; k < all.size(); ++k) {
       both[k] += in_part && all[k].contains(p);
