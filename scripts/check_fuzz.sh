@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs each fuzz target of test/fuzz (libFuzzer with AddressSanitizer) for some seconds:
 #   check_fuzz.sh [SECONDS]
+# The inputs are the same in each run as far as it comes.
 # What ends one is left in build-fuzz/findings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,7 +21,7 @@ mkdir -p "$build/findings"
 fuzz() {
   local name corpus
   name=$(basename "$1") corpus=$(mktemp -d)
-  if "$1" -max_total_time="$2" -timeout=10 -rss_limit_mb=1024 -print_final_stats=1 \
+  if "$1" -seed=1 -max_total_time="$2" -timeout=10 -rss_limit_mb=1024 -print_final_stats=1 \
     -artifact_prefix="$3/$name-" "$corpus" >"$3/$name.log" 2>&1; then
     echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$3/$name.log") inputs"
   else
