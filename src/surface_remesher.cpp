@@ -189,8 +189,9 @@ void SurfaceRemesher::mend() {
     if (!mesh_.beside(a, b, beside) ||
         (mesh_.position(a) - mesh_.position(b)).norm() > MENDED * tolerance_)
       continue;
+    const Index kept = a; // a lambda of C++17 takes no part of a pair
     const bool wrong = std::any_of(beside.begin(), beside.end(), [&](Index t) {
-      return !facesOut(corners(t, a, mesh_.position(a)), mesh_.part(t));
+      return !facesOut(corners(t, kept, mesh_.position(kept)), mesh_.part(t));
     });
     if (!wrong)
       continue;
