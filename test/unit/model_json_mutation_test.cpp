@@ -53,7 +53,8 @@ TEST(ModelJson, ChangedFilesAreRefusedOrGiveFiguresThatAreFinite) {
       EXPECT_TRUE(s.inertia().allFinite()) << seed;
     }
     EXPECT_TRUE(massProperties(file.model, 8).inertia.allFinite()) << seed;
-    for (const auto& part : nlohmann::json::parse(toJson(file)).at("superquadrics"))
+    const nlohmann::json written = nlohmann::json::parse(toJson(file));
+    for (const auto& part : written.at("superquadrics"))
       for (const auto& [key, value] : part.items())
         EXPECT_FALSE(value.is_null()) << seed << ' ' << key;
   }

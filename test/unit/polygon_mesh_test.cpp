@@ -50,7 +50,6 @@ TEST(PolygonMesh, OfAUnionHasNoInnerWalls) {
 TEST(PolygonMesh, OfNothingIsEmptyButStillPcls) {
   const pcl::PolygonMesh mesh = toPolygonMesh(TriangleMesh());
   EXPECT_TRUE(mesh.polygons.empty());
-  pcl::PointCloud<pcl::PointXYZ> vertices;
-  pcl::fromPCLPointCloud2(mesh.cloud, vertices);
-  EXPECT_TRUE(vertices.empty());
+  EXPECT_EQ(mesh.cloud.width * mesh.cloud.height, 0u);
+  EXPECT_EQ(mesh.cloud.fields.size(), 3u); // x, y, z: PCL's readers ask for them
 }
