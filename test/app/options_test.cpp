@@ -198,19 +198,7 @@ INSTANTIATE_TEST_SUITE_P(All,
 
 TEST(OptionRules, HoldForOptionsThatExist) {
   std::set<std::string> known;
-  for (const char* program : {
-           "pcl_sq_fit",
-           "pcl_sq_grasp",
-           "pcl_sq_evaluate",
-#ifdef PCL_SQ_TEST_SNAPSHOT
-           "pcl_sq_snapshot",
-#endif
-#ifdef PCL_SQ_TEST_STEREO
-           "pcl_sq_stereo",
-           "pcl_sq_render",
-           "pcl_sq_calibrate",
-#endif
-       })
+  for (const std::string& program : builtPrograms())
     for (const Option& option : optionsOf(program))
       known.insert(option.name);
 #if defined PCL_SQ_TEST_SNAPSHOT && defined PCL_SQ_TEST_STEREO
