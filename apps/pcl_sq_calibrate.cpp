@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calibration of a stereo camera from pictures of a chessboard.
-#include "app.h"
-#include "files.h"
-#include "image_file.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "files/image_file.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A model against what is known of the object.
-#include "app.h"
-#include "cloud_io.h"
-#include "evaluation.h"
-#include "files.h"
-#include "mesh_reader.h"
-#include "offset.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/cloud_io.h"
+#include "files/files.h"
+#include "options/offset.h"
 #include "pcl_sq/model_io.h"
-#include "pose_file.h"
-#include "truth.h"
-#include "value_checks.h"
+#include "scene/evaluation.h"
+#include "scene/mesh_reader.h"
+#include "scene/pose_file.h"
+#include "scene/truth.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point clouds in, unions of superquadrics out.
-#include "app.h"
-#include "files.h"
-#include "grasp_output.h"
-#include "model_options.h"
-#include "ordered_lines.h"
-#include "process.h"
-#include "summary.h"
-#include "text.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/process.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "model/grasp_output.h"
+#include "options/model_options.h"
+#include "report/ordered_lines.h"
+#include "report/summary.h"
+#include "report/text.h"
 
 #include "pcl_sq/stage_timer.h"
 

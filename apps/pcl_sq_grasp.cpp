@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Model or point cloud in, ranked grasps out.
-#include "app.h"
-#include "files.h"
-#include "grasp_output.h"
-#include "graspit_folder.h"
-#include "model_options.h"
-#include "summary.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "files/graspit_folder.h"
+#include "model/grasp_output.h"
+#include "options/model_options.h"
+#include "report/summary.h"
 
 using namespace pcl_sq;
 

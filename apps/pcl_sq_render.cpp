@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo pairs of procedural objects with the exact truth.
-#include "app.h"
-#include "files.h"
-#include "image_file.h"
-#include "mesh_reader.h"
-#include "truth.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "files/image_file.h"
+#include "scene/mesh_reader.h"
+#include "scene/truth.h"
 
 #include <opencv2/core.hpp>
 

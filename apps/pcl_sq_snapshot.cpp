@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Model and cloud in, picture out.
-#include "app.h"
-#include "cloud_picture.h"
-#include "files.h"
-#include "frame_options.h"
-#include "offset.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "model/cloud_picture.h"
+#include "options/frame_options.h"
+#include "options/offset.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"

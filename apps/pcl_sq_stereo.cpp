@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo pair (or depth image) in, union of superquadrics out.
-#include "app.h"
-#include "cloud_bytes.h"
-#include "files.h"
-#include "image_file.h"
-#include "model_options.h"
-#include "panel.h"
+#include "command_line/app.h"
+#include "files/cloud_bytes.h"
+#include "files/files.h"
+#include "files/image_file.h"
+#include "options/model_options.h"
 #include "pcl_sq/stereo/histogram_plot.h"
-#include "stereo_front.h"
-#include "summary.h"
+#include "report/summary.h"
+#include "stereo/panel.h"
+#include "stereo/stereo_front.h"
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>

@@ -2,11 +2,11 @@
 // Share of planned grasps that hold on the TRUE shape, found with other means than the
 // planner's: the closing line is cast through a mesh of the truth, collisions are
 // looked for with points of its surface.
-#include "app.h"
-#include "cloud_io.h"
-#include "files.h"
+#include "command_line/app.h"
+#include "files/cloud_io.h"
+#include "files/files.h"
 #include "grasp_truth.h"
-#include "mesh_reader.h"
+#include "scene/mesh_reader.h"
 
 #include "pcl_sq/grasp_planner.h"
 #include "pcl_sq/model_io.h"

@@ -119,7 +119,7 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
                 observed.depth);
     if (truth.model.size() == 1 && observed.hasCamera()) {
       double sum = 0.0, square = 0.0, n = 0.0;
-      for (const SupportPlane& plane :
+      for (const TangentPlane& plane :
            observed.evidence(observed.contour, 48, true).silhouette) {
         const double out = (plane.offset - truth.model.support(plane.normal)) /
                            plane.sigma * observed.outline_sigma;
@@ -142,7 +142,7 @@ Result evaluate(Case c, const Truth& truth, const Settings& settings) {
     std::printf("    misfit of one %.2f, effective %.0f\n",
                 fit.misfit,
                 observed.effective_points);
-    for (const SupportFit& part : fit.parts) {
+    for (const ViewFit& part : fit.parts) {
       const Superquadric& m = part.chosen.model;
       std::printf("    %s%s%s margin %.1f noise %.2f mm  a %.1f %.1f %.1f e %.2f %.2f "
                   "k %.2f %.2f |",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lines.h"
+#include "input/lines.h"
 
-#include "app.h"
+#include "command_line/app.h"
 
 #include <charconv>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "missing_points.h"
+#include "input/missing_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCD: text, binary and compressed, versions .5 to .7.
-#include "app.h"
-#include "lines.h"
-#include "scalar.h"
-#include "shape.h"
-#include "text.h"
+#include "command_line/app.h"
+#include "input/lines.h"
+#include "input/scalar.h"
+#include "input/shape.h"
+#include "report/text.h"
 
 #include <pcl/io/lzf.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ply_header.h"
+#include "input/ply_header.h"
 
-#include "app.h"
-#include "text.h"
+#include "command_line/app.h"
+#include "report/text.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "lines.h"
-#include "scalar.h"
+#include "input/lines.h"
+#include "input/scalar.h"
 
 #include <optional>
 #include <string>

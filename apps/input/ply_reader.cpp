@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PLY: text and both orders of bytes, elements in any order, lists anywhere.
-#include "app.h"
-#include "ply_header.h"
-#include "shape.h"
-#include "text.h"
+#include "command_line/app.h"
+#include "input/ply_header.h"
+#include "input/shape.h"
+#include "report/text.h"
 
 #include <algorithm>
 #include <cmath>

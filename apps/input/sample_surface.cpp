@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_surface.h"
+#include "input/sample_surface.h"
 
 #include <algorithm>
 #include <cmath>

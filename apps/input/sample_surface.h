@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "shape.h"
+#include "input/shape.h"
 
 namespace pcl_sq::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scalar.h"
+#include "input/scalar.h"
 
 #include <algorithm>
 #include <cstdint>

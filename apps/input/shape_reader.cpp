@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which reader? The contents say it, the extension only where they do not.
-#include "app.h"
-#include "lines.h"
-#include "shape.h"
+#include "command_line/app.h"
+#include "input/lines.h"
+#include "input/shape.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text_columns.h"
+#include "input/text_columns.h"
 
-#include "lines.h"
+#include "input/lines.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines of numbers: .xyz, .txt, .asc, .csv, .pts ...
-#include "app.h"
-#include "lines.h"
-#include "shape.h"
-#include "text.h"
-#include "text_columns.h"
+#include "command_line/app.h"
+#include "input/lines.h"
+#include "input/shape.h"
+#include "input/text_columns.h"
+#include "report/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation.h"
+#include "scene/evaluation.h"
 
-#include "noise.h"
+#include "scene/noise.h"
 
 #include <omp.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh_bvh.h"
-#include "objects.h"
 #include "pcl_sq/multi_superquadric.h"
+#include "scene/mesh_bvh.h"
+#include "scene/objects.h"
 
 #include <cstdint>
 

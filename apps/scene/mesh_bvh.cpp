@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh_bvh.h"
+#include "scene/mesh_bvh.h"
 
 #include <Eigen/Geometry>
 

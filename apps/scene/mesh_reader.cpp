@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh_reader.h"
+#include "scene/mesh_reader.h"
 
-#include "app.h"
-#include "cloud_io.h"
-#include "files.h"
-#include "shape.h"
-#include "text.h"
+#include "command_line/app.h"
+#include "files/cloud_io.h"
+#include "files/files.h"
+#include "input/shape.h"
+#include "report/text.h"
 
 #include <algorithm>
 #include <numeric>

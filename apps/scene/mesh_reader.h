@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cloud_options.h"
+#include "options/cloud_options.h"
 
 #include "pcl_sq/triangle_mesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "noise.h"
+#include "scene/noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose_file.h"
+#include "scene/pose_file.h"
 
-#include "app.h"
-#include "files.h"
-#include "text.h"
-#include "value_checks.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "report/text.h"
 
 #include <Eigen/LU>
 

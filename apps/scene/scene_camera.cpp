@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene_camera.h"
+#include "scene/scene_camera.h"
 
 #include <Eigen/Geometry>
 

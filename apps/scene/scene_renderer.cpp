@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene_renderer.h"
+#include "scene/scene_renderer.h"
 
-#include "noise.h"
+#include "scene/noise.h"
 
 #include <omp.h>
 

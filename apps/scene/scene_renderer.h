@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh_bvh.h"
 #include "pcl_sq/roi.h"
-#include "scene_camera.h"
+#include "scene/mesh_bvh.h"
+#include "scene/scene_camera.h"
 
 #include <cstdint>
 #include <string>

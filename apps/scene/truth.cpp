@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "truth.h"
+#include "scene/truth.h"
 
-#include "app.h"
-#include "files.h"
-#include "json_text.h"
+#include "command_line/app.h"
+#include "files/files.h"
+#include "io/json_text.h"
 
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>

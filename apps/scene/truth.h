@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "objects.h"
-#include "scene_renderer.h"
+#include "scene/objects.h"
+#include "scene/scene_renderer.h"
 
 namespace pcl_sq::app {
 

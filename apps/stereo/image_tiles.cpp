@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "image_tiles.h"
+#include "stereo/image_tiles.h"
 
-#include "view_canvas.h"
+#include "stereo/view_canvas.h"
 
 #include <opencv2/imgproc.hpp>
 

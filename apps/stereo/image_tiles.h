@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "panel.h"
+#include "stereo/panel.h"
 
 namespace pcl_sq::app {
 

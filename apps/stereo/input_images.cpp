@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "input_images.h"
+#include "stereo/input_images.h"
 
-#include "app.h"
-#include "image_file.h"
+#include "command_line/app.h"
+#include "files/image_file.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "panel.h"
+#include "stereo/panel.h"
 
-#include "image_tiles.h"
 #include "pcl_sq/stereo/histogram_plot.h"
-#include "view_canvas.h"
+#include "stereo/image_tiles.h"
+#include "stereo/view_canvas.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo_front.h"
+#include "stereo/stereo_front.h"
 
-#include "app.h"
-#include "files.h"
-#include "image_file.h"
-#include "input_images.h"
+#include "command_line/app.h"
+#include "command_line/value_checks.h"
+#include "files/files.h"
+#include "files/image_file.h"
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stage_timer.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
-#include "texture_check.h"
-#include "value_checks.h"
+#include "stereo/input_images.h"
+#include "stereo/texture_check.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>

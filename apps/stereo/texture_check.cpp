@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "texture_check.h"
+#include "stereo/texture_check.h"
 
 #include <opencv2/imgproc.hpp>
 

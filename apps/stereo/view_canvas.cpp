@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_canvas.h"
+#include "stereo/view_canvas.h"
 
 #include "pcl_sq/oriented_box.h"
 #include "pcl_sq/visibility.h"

@@ -3,7 +3,7 @@
 
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
-#include "pcl_sq/support_fit.h"
+#include "pcl_sq/view_fit.h"
 
 namespace pcl_sq {
 
@@ -12,7 +12,7 @@ struct PCL_SQ_EXPORTS ObjectFitOptions {
   int max_parts = 6;         ///< largest number of parts that is looked for, [1, 16]
   int parts = 0;             ///< number of parts; 0: found, [0, 16]
   int silhouette_lines = 48; ///< per part, [8, 360]
-  SupportFitOptions fit;
+  ViewFitOptions fit;
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */
@@ -22,10 +22,10 @@ struct PCL_SQ_EXPORTS ObjectFitOptions {
 /** \brief An object as a union of superquadrics. */
 struct ObjectFit {
   MultiSuperquadric model;
-  std::vector<SupportFit> parts; ///< one per part of the model
-  std::vector<int> labels;       ///< part of each observed point, -1: none
-  double bic = 0.0;              ///< of the whole object
-  double misfit = 0.0;           ///< cost of one superquadric per independent point
+  std::vector<ViewFit> parts; ///< one per part of the model
+  std::vector<int> labels;    ///< part of each observed point, -1: none
+  double bic = 0.0;           ///< of the whole object
+  double misfit = 0.0;        ///< cost of one superquadric per independent point
 };
 
 /** \brief Fits one superquadric, or as many as the data ask for.

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "pcl_sq/silhouette.h"
-#include "pcl_sq/support_fit.h"
 #include "pcl_sq/table_plane.h"
+#include "pcl_sq/view_fit.h"
 
 #include <optional>
 #include <string>
@@ -88,7 +88,7 @@ struct PCL_SQ_EXPORTS ObservedObject {
   CellMask pixels;     ///< the object's, of the real or virtual image
   /** \brief Pixels around the object through which the background is seen: no part of
    * the object crosses their rays. A coarse grid of them. */
-  std::vector<Eigen::Vector2d> free_pixels;
+  std::vector<Eigen::Vector2d> free_space;
   double free_weight = 0.0; ///< independent observations per free pixel
   /** \brief Pixels of the largest gap in the object, such as that of a handle, through
    * which the background is seen. */
@@ -97,9 +97,9 @@ struct PCL_SQ_EXPORTS ObservedObject {
 
   bool hasCamera() const { return outline != OutlineSource::NONE; }
   /** \brief The evidence for an outline: tangent planes and the table. */
-  SupportEvidence evidence(const std::vector<ContourPoint>& outline_points,
-                           int lines,
-                           bool on_table) const;
+  ViewEvidence evidence(const std::vector<ContourPoint>& outline_points,
+                        int lines,
+                        bool on_table) const;
 };
 
 /** \brief Collects what one view of an object tells.

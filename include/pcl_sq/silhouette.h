@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pcl_sq/cell_mask.h"
-#include "pcl_sq/support_plane.h"
+#include "pcl_sq/tangent_plane.h"
 
 #include <functional>
 #include <vector>
@@ -75,7 +75,7 @@ PCL_SQ_EXPORTS std::vector<SilhouetteLine> silhouetteLines(
  * made the outline touches it.
  * \param[in] sigma standard deviation of the line [px]
  * \param[in] depth of the body [m], turns pixels into metres */
-PCL_SQ_EXPORTS SupportPlane tangentPlane(const PinholeCamera& camera,
+PCL_SQ_EXPORTS TangentPlane tangentPlane(const PinholeCamera& camera,
                                          const SilhouetteLine& line,
                                          double sigma,
                                          double depth);

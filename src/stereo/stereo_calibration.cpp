@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/stereo/stereo_calibration.h"
 
-#include "stereo/calibration_checks.h"
+#include "stereo/calibration/calibration_checks.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>

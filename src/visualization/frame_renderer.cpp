@@ -2,9 +2,9 @@
 #include "visualization/frame_renderer.h"
 
 #include "pcl_sq/exception.h"
-#include "visualization/actors.h"
-#include "visualization/gl_display.h"
-#include "visualization/overlay.h"
+#include "visualization/display/gl_display.h"
+#include "visualization/drawing/actors.h"
+#include "visualization/drawing/overlay.h"
 
 #include <vtkNew.h>
 #include <vtkObject.h>

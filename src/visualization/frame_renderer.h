@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "visualization/scene.h"
+#include "visualization/drawing/scene.h"
 
 #include <memory>
 

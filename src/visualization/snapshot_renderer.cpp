@@ -3,10 +3,10 @@
 
 #include "pcl_sq/exception.h"
 #include "pcl_sq/file_io.h"
+#include "visualization/drawing/overlay.h"
+#include "visualization/drawing/scene.h"
+#include "visualization/files/png_file.h"
 #include "visualization/frame_renderer.h"
-#include "visualization/overlay.h"
-#include "visualization/png_file.h"
-#include "visualization/scene.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "did_you_mean.h"
-#include "value_checks.h"
+#include "command_line/did_you_mean.h"
+#include "command_line/value_checks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every option of every program: found through --help, given rubbish, given where it
 // has no effect, misspelt.
-#include "option_rules.h"
+#include "command_line/option_rules.h"
 #include "program.h"
 
 #include <gtest/gtest.h>

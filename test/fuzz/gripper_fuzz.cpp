@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gripper files: refused, or a gripper that is valid.
-#include "app.h"
-#include "gripper_file.h"
+#include "command_line/app.h"
+#include "files/gripper_file.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images: refused, or decoded to what their head says. Large ones are left to the
 // decoder's own tests: here they would only cost memory.
-#include "app.h"
-#include "image_file.h"
-#include "image_header.h"
+#include "command_line/app.h"
+#include "files/image_file.h"
+#include "files/image_header.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From what a file holds to the cloud that programs use.
-#include "cloud_io.h"
 #include "file_bytes.h"
-#include "sample_surface.h"
-#include "text.h"
+#include "files/cloud_io.h"
+#include "input/sample_surface.h"
+#include "report/text.h"
 
 #include <gtest/gtest.h>
 

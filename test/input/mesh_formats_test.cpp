@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_bytes.h"
-#include "mesh_reader.h"
+#include "scene/mesh_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_bytes.h"
-#include "lines.h"
+#include "input/lines.h"
 
 #include <gtest/gtest.h>
 

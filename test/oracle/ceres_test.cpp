@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ceres, with derivatives by differences, from the same start: our minimum is not
 // worse.
-#include "levenberg_marquardt.h"
+#include "solver/levenberg_marquardt.h"
 
 #include "random_superquadric.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "visualization/display_surface.h"
+#include "visualization/display/display_surface.h"
 
 #include "random_superquadric.h"
 

@@ -2,7 +2,7 @@
 // Where the picture is made: with no display, a dead one, none to start, many at once.
 #include "pcl_sq/exception.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
-#include "visualization/private_xvfb.h"
+#include "visualization/display/private_xvfb.h"
 
 #include "environment_variable.h"
 #include "folder.h"

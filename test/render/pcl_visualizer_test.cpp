@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models in a user's own pcl::visualization::PCLVisualizer.
 #include "pcl_sq/visualization/pcl_visualizer.h"
-#include "visualization/private_xvfb.h"
+#include "visualization/display/private_xvfb.h"
 
 #include "environment_variable.h"
 

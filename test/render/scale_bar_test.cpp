@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "visualization/scale_bar.h"
+#include "visualization/drawing/scale_bar.h"
 
 #include <gtest/gtest.h>
 

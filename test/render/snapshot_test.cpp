@@ -4,7 +4,7 @@
 
 #include "pcl_sq/exception.h"
 #include "random_superquadric.h"
-#include "visualization/scale_bar.h"
+#include "visualization/drawing/scale_bar.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Real and rendered pairs with ground truth; skipped where the data are not there.
 #include "chessboard.h"
 #include "pcl_sq/stereo/object_segmenter.h"
-#include "pose_file.h"
+#include "scene/pose_file.h"
 #include "stereo_scene.h"
 
 #include <gtest/gtest.h>

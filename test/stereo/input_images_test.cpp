@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app.h"
+#include "command_line/app.h"
+#include "files/image_file.h"
+#include "files/image_header.h"
 #include "folder.h"
-#include "image_file.h"
-#include "image_header.h"
-#include "input_images.h"
 #include "mutate.h"
-#include "texture_check.h"
+#include "stereo/input_images.h"
+#include "stereo/texture_check.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small files of strangers, changed a thousand times: read whole or refused.
-#include "app.h"
-#include "gripper_file.h"
+#include "command_line/app.h"
+#include "files/gripper_file.h"
 #include "mutate.h"
-#include "pose_file.h"
-#include "truth.h"
+#include "scene/pose_file.h"
+#include "scene/truth.h"
 
 #include <gtest/gtest.h>
 

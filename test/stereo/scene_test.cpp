@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The renderer and the evaluation, against geometry that is known otherwise.
-#include "evaluation.h"
 #include "folder.h"
-#include "mesh_reader.h"
-#include "noise.h"
 #include "random_superquadric.h"
+#include "scene/evaluation.h"
+#include "scene/mesh_reader.h"
+#include "scene/noise.h"
+#include "scene/truth.h"
 #include "stereo_scene.h"
-#include "truth.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

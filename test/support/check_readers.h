@@ -2,10 +2,10 @@
 // What must hold for any bytes that are given for a cloud or a mesh.
 #pragma once
 
-#include "app.h"
-#include "cloud_io.h"
-#include "mesh_reader.h"
-#include "shape.h"
+#include "command_line/app.h"
+#include "files/cloud_io.h"
+#include "input/shape.h"
+#include "scene/mesh_reader.h"
 
 #include <cmath>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app.h"
-#include "shape.h"
+#include "command_line/app.h"
+#include "input/shape.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "objects.h"
 #include "pcl_sq/stereo/stereo_reprojector.h"
-#include "scene_renderer.h"
+#include "scene/objects.h"
+#include "scene/scene_renderer.h"
 
 #include <opencv2/core.hpp>
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifdef PCL_SQ_HAVE_OPENCV
+#include "files/image_file.h"
+
+#include "command_line/app.h"
+#include "files/files.h"
+#include "files/image_header.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <vector>
+
+namespace pcl_sq::app {
+namespace {
+
+/** \brief Keeps what the decoders would print away from the user: the programs say it
+ * themselves, in one sentence. */
+class SilentDecoders {
+public:
+  SilentDecoders() : kept_(dup(STDERR_FILENO)) {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0)
+      dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0)
+      close(nowhere);
+  }
+  ~SilentDecoders() {
+    if (kept_ >= 0) {
+      dup2(kept_, STDERR_FILENO);
+      close(kept_);
+    }
+  }
+  SilentDecoders(const SilentDecoders&) = delete;
+  SilentDecoders& operator=(const SilentDecoders&) = delete;
+
+private:
+  int kept_;
+};
+
+} // namespace
+
+cv::Mat readImage(const std::string& path, int flags) {
+  return decodeImage(readFile(path), path, flags);
+}
+
+cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags) {
+  // sixteen times what stereo cameras have; a picture of it still fits into memory
+  constexpr std::uint64_t MOST_PIXELS = 1U << 26U;
+  constexpr std::uint64_t LONGEST_SIDE = 1U << 15U;
+  const auto refuse = [&name](const std::string& what) -> void {
+    throw Failure("the image '" + name + "' " + what);
+  };
+  ImageHeader header;
+  std::string why;
+  if (!readImageHeader(bytes, header, &why))
+    refuse(why + "; check the file or write it again as PNG.");
+  if (header.width == 0 || header.height == 0 || header.width > LONGEST_SIDE ||
+      header.height > LONGEST_SIDE || header.width * header.height > MOST_PIXELS)
+    refuse("says it has " + std::to_string(header.width) + " x " +
+           std::to_string(header.height) +
+           " px; 1 x 1 to 64 megapixels can be read: make it smaller.");
+  cv::Mat image;
+  {
+    const SilentDecoders silent;
+    try {
+      const cv::Mat data(1,
+                         static_cast<int>(bytes.size()),
+                         CV_8U,
+                         const_cast<char*>(bytes.data())); // only read
+      image = cv::imdecode(data, flags);
+    } catch (const cv::Exception&) {
+      image.release();
+    }
+  }
+  if (image.empty())
+    refuse(
+        "cannot be decoded; it is damaged, or of a rare kind: write it again as PNG.");
+  return image;
+}
+
+void claimImage(const std::string& option, const std::string& path) {
+  if (path.empty())
+    return;
+  const std::string format = formatOf(path, ".png");
+  if (format.size() < 2 || !cv::haveImageWriter("image" + format))
+    throw UsageError(option + ": '" + path +
+                     "' does not end like a picture; use .png.");
+  claimOutput(option, path);
+}
+
+void writeImage(const std::string& path, const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  bool done = false;
+  try {
+    done = cv::imencode(formatOf(path, ".png"), image, bytes);
+  } catch (const cv::Exception&) { // the sentence below tells more
+  }
+  if (!done)
+    throw Failure("'" + path +
+                  "' is of a format that cannot hold this picture; use "
+                  ".png.");
+  writeOutput(path, std::string(bytes.begin(), bytes.end()));
+}
+
+} // namespace pcl_sq::app
+#endif

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/start_shapes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr double BOX = 0.3;        ///< exponents of a box that can still move
+constexpr double OCTAHEDRON = 1.7; ///< and of an octahedron
+constexpr double FLAT = 0.05;      ///< smallest start's axis over the largest
+constexpr std::size_t CUT = 100;   ///< one point in so many is left out at each end
+
+/** \brief Axes, middle and half sides of the box around the points. */
+struct Box {
+  Eigen::Matrix3d axes;
+  Eigen::Vector3d middle, half;
+};
+
+/** \brief Box along given axes, a few points left out at each end. */
+Box boxAlong(const UnitPoints& points, const Eigen::Matrix3d& axes) {
+  const std::size_t n = points.size();
+  const auto cut = static_cast<std::ptrdiff_t>(n / CUT);
+  std::vector<float> along(n);
+  Eigen::Vector3d low, high;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3f axis = axes.col(k).cast<float>();
+    for (std::size_t i = 0; i < n; ++i)
+      along[i] = axis.dot(points[i]);
+    std::nth_element(along.begin(), along.begin() + cut, along.end());
+    low[k] = along[cut];
+    std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+    high[k] = *(along.end() - 1 - cut);
+  }
+  const Eigen::Vector3d side = high - low;
+  return {axes,
+          axes * (0.5 * (low + high)),
+          0.5 * side.cwiseMax(FLAT * side.maxCoeff()).cwiseMax(1e-3)};
+}
+
+Eigen::Matrix3d principalAxesOf(const UnitPoints& points) {
+  const std::size_t n = points.size();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < n; ++i)
+    mean += points[i].cast<double>();
+  mean /= double(n);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d d = points[i].cast<double>() - mean;
+    covariance += d * d.transpose();
+  }
+  Eigen::Matrix3d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  if (axes.determinant() < 0.0)
+    axes.col(2) *= -1.0;
+  return axes;
+}
+
+/** \brief Superquadric in a box; its axis k is the box's axis (k + shift) mod 3. */
+Superquadric inBox(const Box& box, int shift, double epsilon) {
+  Superquadric s;
+  s.center = box.middle;
+  for (int k = 0; k < 3; ++k) {
+    s.rotation.col(k) = box.axes.col((k + shift) % 3);
+    s.semi_axes[k] = box.half[(k + shift) % 3];
+  }
+  s.epsilon1 = s.epsilon2 = epsilon;
+  return s;
+}
+
+Superquadric turned(Superquadric s, const Eigen::Vector3d& axis) {
+  s.rotation *= Eigen::AngleAxisd(0.25 * M_PI, axis).toRotationMatrix();
+  return s;
+}
+
+/** \brief Axes in cyclic order, exponents exchanged: exact where both are equal. */
+Superquadric axesShifted(const Superquadric& m, int shift) {
+  Superquadric s = m;
+  for (int k = 0; k < 3; ++k) {
+    s.rotation.col(k) = m.rotation.col((k + shift) % 3);
+    s.semi_axes[k] = m.semi_axes[(k + shift) % 3];
+  }
+  std::swap(s.epsilon1, s.epsilon2);
+  return s;
+}
+
+/** \brief Cross-section turned by 45 degrees with e2 -> 2 - e2: exact between a square
+ * and a square on its corner, whose sizes differ by sqrt(2). */
+Superquadric dual(const Superquadric& m) {
+  Superquadric s = turned(m, Eigen::Vector3d::UnitZ());
+  const auto growth = [](double e) {
+    return (1.0 - std::sqrt(2.0)) * e + std::sqrt(2.0);
+  };
+  const double factor =
+      m.epsilon2 <= 1.0 ? growth(m.epsilon2) : 1.0 / growth(2.0 - m.epsilon2);
+  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
+  s.epsilon2 = std::max(2.0 - m.epsilon2, Superquadric::MIN_EPSILON);
+  return s;
+}
+
+} // namespace
+
+std::vector<Superquadric> startShapes(const UnitPoints& dense) {
+  std::vector<Superquadric> starts;
+  const Box box = boxAlong(dense, principalAxesOf(dense));
+  for (int shift = 0; shift < 3; ++shift) {
+    starts.push_back(inBox(box, shift, 1.0));
+    starts.push_back(inBox(box, shift, BOX));
+    starts.push_back(turned(starts.back(), Eigen::Vector3d::UnitZ()));
+  }
+  return starts;
+}
+
+std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense) {
+  std::vector<Superquadric> starts;
+  const Eigen::Matrix3d axes = principalAxesOf(dense);
+  const Box box = boxAlong(dense, axes);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double push : {-0.7, 0.7}) {
+      Box pushed = box;
+      pushed.middle += push * box.half[axis] * axes.col(axis);
+      pushed.half[axis] *= 1.7;
+      starts.push_back(inBox(pushed, axis, 1.0));
+    }
+    starts.push_back(inBox(box, axis, OCTAHEDRON));
+    const Eigen::Matrix3d between =
+        axes *
+        Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+    const Box other = boxAlong(dense, between);
+    for (int shift = 0; shift < 3; ++shift)
+      starts.push_back(inBox(other, shift, BOX));
+  }
+  return starts;
+}
+
+std::vector<Superquadric> otherDescriptions(const Superquadric& model) {
+  const Superquadric own_dual = dual(model);
+  const Superquadric first = axesShifted(model, 1), second = axesShifted(model, 2);
+  return {first,
+          second,
+          own_dual,
+          axesShifted(own_dual, 1),
+          axesShifted(own_dual, 2),
+          dual(first),
+          dual(second)};
+}
+
+} // namespace pcl_sq::detail

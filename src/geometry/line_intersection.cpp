@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/line_intersection.h"
+
+#include "geometry/gauge.h"
+
+#include <boost/math/tools/minima.hpp>
+
+#include <limits>
+
+namespace pcl_sq {
+
+namespace {
+
+constexpr int MAX_STEPS = 80;        ///< a tangential line converges linearly
+constexpr double ON_SURFACE = 1e-12; ///< G - 1 that counts as on the surface
+
+/** \brief The line in axes in which the superquadric's box is the unit cube. */
+struct UnitLine {
+  Eigen::Vector3d origin, direction;
+};
+
+UnitLine toUnitCube(const Superquadric& s,
+                    const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d scale = s.halfSizes().cwiseInverse();
+  return {s.toLocal(origin).cwiseProduct(scale),
+          (s.rotation.transpose() * direction).cwiseProduct(scale)};
+}
+
+bool clipToUnitCube(const UnitLine& line, LineInterval& interval) {
+  double enter = -std::numeric_limits<double>::infinity();
+  double leave = -enter;
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(line.direction[k]) < 1e-300) {
+      if (std::abs(line.origin[k]) > 1.0)
+        return false;
+      continue;
+    }
+    const double a = (-1.0 - line.origin[k]) / line.direction[k];
+    const double b = (1.0 - line.origin[k]) / line.direction[k];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  if (!(enter <= leave) || !std::isfinite(enter) || !std::isfinite(leave))
+    return false;
+  interval = {enter, leave};
+  return true;
+}
+
+/** \brief Newton from outside towards the surface; \a sign is +1 for the entry.
+ * \return whether the surface was reached before \a limit */
+bool approach(const Superquadric& s,
+              const UnitLine& line,
+              double sign,
+              double limit,
+              double& at) {
+  const Eigen::Vector3d unit = Eigen::Vector3d::Ones();
+  for (int step = 0; step < MAX_STEPS; ++step) {
+    const Eigen::Vector3d p = line.origin + at * line.direction;
+    const detail::LogGauge g = detail::logGauge(p, unit, s.epsilon1, s.epsilon2);
+    const double value = std::exp(g.value);
+    if (value - 1.0 <= ON_SURFACE)
+      return true;
+    const double slope =
+        value * detail::logGaugeGradient(g, p).dot(line.direction) * sign;
+    if (!(slope < 0.0))
+      return false; // past the lowest point without having been inside
+    const double step_length = (value - 1.0) / -slope;
+    at += sign * step_length;
+    if (sign * (at - limit) > 0.0)
+      return false;
+  }
+  return true;
+}
+
+/** \brief Where a line comes deepest into a tapered body, between two places; the gauge
+ * may have several minima along a line. */
+double deepest(const Superquadric& s,
+               const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& direction,
+               const LineInterval& range,
+               double& gauge) {
+  constexpr int SAMPLES = 12;
+  constexpr int PRECISION_BITS = 26;
+  const auto at = [&](double t) { return s.gauge(origin + t * direction); };
+  const double step = (range.leave - range.enter) / SAMPLES;
+  double best = range.enter;
+  gauge = at(best);
+  for (int i = 1; i <= SAMPLES; ++i) {
+    const double t = range.enter + i * step, value = at(t);
+    if (value < gauge) {
+      gauge = value;
+      best = t;
+    }
+  }
+  const auto refined = boost::math::tools::brent_find_minima(
+      at, best - step, best + step, PRECISION_BITS);
+  if (refined.second < gauge) {
+    gauge = refined.second;
+    best = refined.first;
+  }
+  return best;
+}
+
+/** \brief The surface between a place inside of a tapered body and one outside. */
+double crossing(const Superquadric& s,
+                const Eigen::Vector3d& origin,
+                const Eigen::Vector3d& direction,
+                double inside,
+                double outside) {
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (s.gauge(origin + middle * direction) <= 1.0 ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+} // namespace
+
+bool intersectLineBox(const Superquadric& s,
+                      const Eigen::Vector3d& origin,
+                      const Eigen::Vector3d& direction,
+                      LineInterval& interval) {
+  return clipToUnitCube(toUnitCube(s, origin, direction), interval);
+}
+
+bool intersectLine(const Superquadric& s,
+                   const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction,
+                   LineInterval& interval) {
+  const UnitLine line = toUnitCube(s, origin, direction);
+  LineInterval box;
+  if (!clipToUnitCube(line, box))
+    return false;
+  if (s.isTapered()) {
+    double gauge;
+    const double inside = deepest(s, origin, direction, box, gauge);
+    if (!(gauge <= 1.0))
+      return false;
+    interval.enter = crossing(s, origin, direction, inside, box.enter);
+    interval.leave = crossing(s, origin, direction, inside, box.leave);
+    return true;
+  }
+  LineInterval found = box;
+  if (!approach(s, line, 1.0, box.leave, found.enter) ||
+      !approach(s, line, -1.0, found.enter, found.leave))
+    return false;
+  interval = found;
+  return true;
+}
+
+} // namespace pcl_sq

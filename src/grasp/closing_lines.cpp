@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grasp/closing_lines.h"
+
+#include "pcl_sq/line_intersection.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int REFINEMENTS = 2;
+constexpr double ALIGNED = 0.02;    ///< slope below which a line is left as it is
+constexpr double MIN_COSINE = 1e-3; ///< of normal and line: not even nearly opposite
+
+/** \brief The reflections and half turns of a superquadric's axes, by their signs. */
+constexpr int SYMMETRIES[7][3] = {{-1, 1, 1},
+                                  {1, -1, 1},
+                                  {1, 1, -1},
+                                  {-1, -1, 1},
+                                  {-1, 1, -1},
+                                  {1, -1, -1},
+                                  {-1, -1, -1}};
+
+/** \brief Positions along half an edge of the face of a cube, from its middle; the
+ * edge itself, where normals turn, is left out. */
+double row(int i, int rows) {
+  return rows == 1 ? 0.0 : std::tan(0.25 * M_PI * 0.87 * i / (rows - 1));
+}
+
+/** \brief The closing lines of a surface point and of its images, by all symmetries.
+ * \param[in] p point of the eighth with no negative coordinate, own frame; of a
+ * tapered part also of that with negative z
+ * \param[in] n its outward normal */
+void addSymmetricLines(const Superquadric& s,
+                       std::size_t part,
+                       const Eigen::Vector3d& p,
+                       const Eigen::Vector3d& n,
+                       std::vector<ClosingLine>& lines) {
+  for (const auto& signs : SYMMETRIES) {
+    if (s.isTapered() && signs[2] < 0)
+      continue; // its halves above and below z = 0 differ
+    const Eigen::Vector3d g(signs[0], signs[1], signs[2]);
+    const Eigen::Vector3d chord = p - g.cwiseProduct(p);
+    const double width = chord.norm(), cosine = std::min(n.dot(chord) / width, 1.0);
+    // a coordinate of zero makes this symmetry the same as another
+    if (!(cosine > MIN_COSINE) || ((g.array() < 0.0) && (p.array() == 0.0)).any())
+      continue;
+    int first = 0; // g swaps the pair: of an image and its swap one is enough
+    while (signs[first] > 0)
+      ++first;
+    for (unsigned image = 0; image < (s.isTapered() ? 4u : 8u); ++image) {
+      const Eigen::Vector3d flip(
+          image & 1u ? -1 : 1, image & 2u ? -1 : 1, image & 4u ? -1 : 1);
+      if (flip[first] < 0.0 || ((flip.array() < 0.0) && (p.array() == 0.0)).any())
+        continue;
+      ClosingLine line;
+      const Eigen::Vector3d q = flip.cwiseProduct(p), m = flip.cwiseProduct(n);
+      line.points = {s.toWorld(q), s.toWorld(g.cwiseProduct(q))};
+      line.normals = {s.rotation * m, s.rotation * g.cwiseProduct(m)};
+      line.parts = {part, part};
+      line.axis = (line.points[1] - line.points[0]) / width;
+      line.width = width;
+      line.slope = std::sqrt(1.0 - cosine * cosine) / cosine;
+      lines.push_back(line);
+    }
+  }
+}
+
+} // namespace
+
+Eigen::Vector3d across(const Eigen::Vector3d& axis, const Eigen::Matrix3d& frame) {
+  Eigen::Index least;
+  (frame.transpose() * axis).cwiseAbs().minCoeff(&least);
+  return axis.cross(frame.col(least)).normalized();
+}
+
+ClosingLines::ClosingLines(const MultiSuperquadric& object,
+                           const GraspPlannerOptions& options,
+                           double gap)
+    : object_(object), options_(options), gap_(gap) {}
+
+std::vector<ClosingLine> ClosingLines::find(double min_width,
+                                            double max_width,
+                                            GraspRejections& rejections,
+                                            double& narrowest,
+                                            double& widest) const {
+  std::vector<ClosingLine> all, kept;
+  for (std::size_t k = 0; k < object_.size(); ++k)
+    findOnPart(k, all);
+  narrowest = std::numeric_limits<double>::infinity();
+  widest = 0.0;
+  for (ClosingLine& line : all) {
+    ++rejections.candidates;
+    // both normals of a part's own line slip alike, and no second part mends both
+    if (line.slope <= options_.friction && extendToUnion(line))
+      setSlope(line);
+    if (line.slope > options_.friction) {
+      ++rejections.slipping;
+    } else if (line.width > max_width) {
+      ++rejections.too_wide;
+      if (line.width < narrowest) { // a chord beside the middle does not count
+        refine(line, std::numeric_limits<double>::infinity());
+        narrowest = std::min(narrowest, line.width);
+      }
+    } else if (line.width < min_width) {
+      ++rejections.too_narrow;
+      widest = std::max(widest, line.width);
+    } else {
+      kept.push_back(line);
+    }
+  }
+  return kept;
+}
+
+void ClosingLines::findOnPart(std::size_t part, std::vector<ClosingLine>& lines) const {
+  const Superquadric& s = object_.parts[part];
+  Superquadric own = s; // in its own frame, where the symmetries are changes of sign
+  own.center.setZero();
+  own.rotation.setIdentity();
+  // the longer an axis, the more rows along it
+  const Eigen::Vector3d share = s.semi_axes / std::cbrt(s.semi_axes.prod());
+  Eigen::Vector3i rows;
+  for (int k = 0; k < 3; ++k)
+    rows[k] = std::clamp(int(std::lround(options_.surface_samples * share[k])),
+                         std::min(options_.surface_samples, 2),
+                         3 * options_.surface_samples);
+  for (int face = 0; face < 3; ++face) {
+    const int u = (face + 1) % 3, v = (face + 2) % 3;
+    for (int i = 0; i < rows[u]; ++i)
+      for (int j = 0; j < rows[v]; ++j) {
+        Eigen::Vector3d direction;
+        direction[face] = 1.0;
+        direction[u] = row(i, rows[u]);
+        direction[v] = row(j, rows[v]);
+        const Eigen::Vector3d p =
+            own.radialProjection(own.tapered(direction.cwiseProduct(s.semi_axes)));
+        addSymmetricLines(s, part, p, own.normal(p), lines);
+        if (!s.isTapered())
+          continue;
+        direction.z() = -direction.z();
+        const Eigen::Vector3d below =
+            own.radialProjection(own.tapered(direction.cwiseProduct(s.semi_axes)));
+        addSymmetricLines(s, part, below, own.normal(below), lines);
+        // from end to end, which no symmetry pairs
+        for (unsigned image = 0; image < 4; ++image) {
+          const Eigen::Vector3d flip(image & 1u ? -1 : 1, image & 2u ? -1 : 1, 1.0);
+          ClosingLine line;
+          if (cast(s.toWorld(flip.cwiseProduct(p)), s.rotation.col(2), part, line))
+            lines.push_back(line);
+        }
+      }
+  }
+}
+
+bool ClosingLines::extendToUnion(ClosingLine& line) const {
+  double low = 0.0, high = line.width;
+  std::array<std::size_t, 2> parts = line.parts;
+  bool changed = false, again = object_.size() > 1;
+  while (again) {
+    again = false;
+    for (std::size_t k = 0; k < object_.size(); ++k) {
+      LineInterval other;
+      if (k == parts[0] || k == parts[1] ||
+          !intersectLineBox(object_.parts[k], line.points[0], line.axis, other) ||
+          other.enter > high + gap_ || other.leave < low - gap_ ||
+          (other.enter >= low && other.leave <= high) ||
+          !intersectLine(object_.parts[k], line.points[0], line.axis, other) ||
+          other.enter > high + gap_ || other.leave < low - gap_)
+        continue;
+      if (other.enter < low - 1e-9) {
+        low = other.enter;
+        parts[0] = k;
+        again = changed = true;
+      }
+      if (other.leave > high + 1e-9) {
+        high = other.leave;
+        parts[1] = k;
+        again = changed = true;
+      }
+    }
+  }
+  if (!changed)
+    return false;
+  const Eigen::Vector3d origin = line.points[0];
+  line.points = {origin + low * line.axis, origin + high * line.axis};
+  line.parts = parts;
+  line.width = high - low;
+  for (std::size_t i = 0; i < 2; ++i)
+    line.normals[i] = object_.parts[parts[i]].normal(line.points[i]);
+  return true;
+}
+
+void ClosingLines::setSlope(ClosingLine& line) const {
+  const double cosine =
+      std::min(-line.normals[0].dot(line.axis), line.normals[1].dot(line.axis));
+  line.slope = cosine > MIN_COSINE
+                   ? std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) / cosine
+                   : 1e3;
+}
+
+bool ClosingLines::cast(const Eigen::Vector3d& middle,
+                        const Eigen::Vector3d& axis,
+                        std::size_t part,
+                        ClosingLine& line) const {
+  LineInterval interval;
+  if (!intersectLine(object_.parts[part], middle, axis, interval))
+    return false;
+  line.points = {middle + interval.enter * axis, middle + interval.leave * axis};
+  line.parts = {part, part};
+  line.axis = axis;
+  line.width = interval.leave - interval.enter;
+  for (std::size_t i = 0; i < 2; ++i)
+    line.normals[i] = object_.parts[part].normal(line.points[i]);
+  extendToUnion(line);
+  setSlope(line);
+  return true;
+}
+
+bool ClosingLines::refine(ClosingLine& line, double max_width) const {
+  bool better = false;
+  for (int step = 0; step < REFINEMENTS && line.slope > ALIGNED; ++step) {
+    const Eigen::Vector3d& n0 = line.normals[0];
+    const Eigen::Vector3d& n1 = line.normals[1];
+    // what both normals share is an offset from the middle of the body; on a ball of
+    // the line's width this shift is exact
+    const Eigen::Vector3d middle = line.middle() - 0.25 * line.width * (n0 + n1);
+    ClosingLine turned;
+    if (!cast(middle, (n1 - n0).normalized(), line.parts[0], turned) ||
+        turned.width > max_width || turned.slope >= line.slope)
+      break;
+    line = turned;
+    better = true;
+  }
+  return better;
+}
+
+bool ClosingLines::contains(const Eigen::Vector3d& point, std::size_t first) const {
+  if (object_.parts[first].gauge(point) <= 1.0)
+    return true;
+  for (std::size_t k = 0; k < object_.size(); ++k)
+    if (k != first && object_.parts[k].gauge(point) <= 1.0)
+      return true;
+  return false;
+}
+
+double ClosingLines::robustness(const Eigen::Vector3d& point,
+                                const Eigen::Vector3d& outward,
+                                std::size_t part) const {
+  const Eigen::Vector3d first = across(outward, object_.parts[part].rotation);
+  const Eigen::Vector3d second = outward.cross(first);
+  int found = 0;
+  for (const double shift : {options_.shift, 2.0 * options_.shift})
+    for (const Eigen::Vector3d& side : {first, second})
+      for (const double sign : {-1.0, 1.0})
+        found +=
+            contains(point + shift * (sign * side - options_.friction * outward), part);
+  return found / 8.0;
+}
+
+double ClosingLines::robustness(const ClosingLine& line) const {
+  return 0.5 * (robustness(line.points[0], -line.axis, line.parts[0]) +
+                robustness(line.points[1], line.axis, line.parts[1]));
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/file_io.h"
+
+#include "io/output_target.h"
+#include "io/temporary_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace pcl_sq {
+
+using detail::FileFailure;
+using detail::OutputTarget;
+using detail::TemporaryFile;
+
+namespace {
+
+/** \brief Runs \a action. \return whether it did not fail */
+template <typename Action>
+bool succeeds(const Action& action, std::string* why) {
+  try {
+    action();
+    return true;
+  } catch (const FileFailure& failure) {
+    if (why)
+      *why = failure.why;
+    return false;
+  }
+}
+
+/** \brief A pipe or device that is open. */
+struct Stream {
+  Stream(const std::string& path, const OutputTarget& where)
+      : target(where), descriptor(detail::openStream(path, where)) {}
+  ~Stream() { detail::closeStream(target, descriptor); }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+  const OutputTarget target;
+  const int descriptor;
+};
+
+std::string bytesOf(const std::string& path, int descriptor) {
+  std::string bytes;
+  char piece[1 << 16];
+  for (;;) {
+    const ssize_t taken = read(descriptor, piece, sizeof piece);
+    if (taken == 0)
+      return bytes;
+    if (taken > 0)
+      bytes.append(piece, static_cast<std::size_t>(taken));
+    else if (errno == EISDIR)
+      throw FileFailure{"'" + path + "' is a folder; give a file"};
+    else if (errno != EINTR)
+      throw FileFailure{"cannot read '" + path +
+                        "': " + std::generic_category().message(errno)};
+  }
+}
+
+std::string readNamed(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor < 0)
+    throw FileFailure{"cannot read '" + path + "': " +
+                      (errno == ENOENT ? "the file does not exist"
+                                       : std::generic_category().message(errno))};
+  try {
+    std::string bytes = bytesOf(path, descriptor);
+    close(descriptor);
+    return bytes;
+  } catch (...) {
+    close(descriptor);
+    throw;
+  }
+}
+
+} // namespace
+
+bool readFile(const std::string& path, std::string& bytes, std::string* why) {
+  bytes.clear();
+  return succeeds(
+      [&] {
+        if (path != "-" && path != "/dev/stdin") {
+          bytes = readNamed(path);
+          return;
+        }
+        static const std::string standard_input =
+            bytesOf("standard input", STDIN_FILENO);
+        bytes = standard_input;
+      },
+      why);
+}
+
+bool writeFile(const std::string& path, const std::string& bytes, std::string* why) {
+  return succeeds(
+      [&] {
+        const OutputTarget target = detail::resolveOutput(path);
+        detail::checkRights(path, target);
+        if (target.kind == OutputTarget::REGULAR) {
+          TemporaryFile file(path, target);
+          detail::writeAll(path, file.descriptor(), bytes);
+          file.finish();
+          file.takeName();
+          return;
+        }
+        const Stream stream(path, target);
+        detail::writeAll(path, stream.descriptor, bytes);
+      },
+      why);
+}
+
+bool isWritable(const std::string& path, std::string* why) {
+  return succeeds([&] { detail::checkRights(path, detail::resolveOutput(path)); }, why);
+}
+
+bool isSameFile(const std::string& a, const std::string& b) {
+  OutputTarget first, second;
+  const auto resolve = [&] {
+    first = detail::resolveOutput(a);
+    second = detail::resolveOutput(b);
+  };
+  if (!succeeds(resolve, nullptr))
+    return false;
+  if (first.descriptor >= 0 && first.descriptor == second.descriptor)
+    return true;
+  if (first.exists && second.exists)
+    return !S_ISCHR(first.status.st_mode) &&
+           first.status.st_dev == second.status.st_dev &&
+           first.status.st_ino == second.status.st_ino;
+  return !first.exists && !second.exists && first.path == second.path;
+}
+
+bool isStandardOutput(const std::string& path) {
+  OutputTarget target;
+  return succeeds([&] { target = detail::resolveOutput(path); }, nullptr) &&
+         target.descriptor == detail::standardOutput();
+}
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return extension;
+}
+
+std::string formatOf(const std::string& path, const std::string& stream_format) {
+  const std::string extension = extensionOf(path);
+  OutputTarget target;
+  const bool known = succeeds([&] { target = detail::resolveOutput(path); }, nullptr);
+  return extension.empty() && known && target.kind != OutputTarget::REGULAR
+             ? stream_format
+             : extension;
+}
+
+struct LineFile::State {
+  std::string path;
+  // one of the two, once the first line is there
+  std::unique_ptr<TemporaryFile> file;
+  std::unique_ptr<Stream> stream;
+
+  void open(const std::string& first) {
+    const OutputTarget target = detail::resolveOutput(path);
+    detail::checkRights(path, target);
+    if (target.kind != OutputTarget::REGULAR) {
+      stream = std::make_unique<Stream>(path, target);
+      detail::writeAll(path, stream->descriptor, first);
+      return;
+    }
+    auto made = std::make_unique<TemporaryFile>(path, target);
+    detail::writeAll(path, made->descriptor(), first);
+    made->takeName();
+    file = std::move(made);
+  }
+};
+
+LineFile::LineFile(const std::string& path) : state_(std::make_unique<State>()) {
+  state_->path = path;
+}
+
+LineFile::~LineFile() = default;
+
+bool LineFile::append(const std::string& line, std::string* why) {
+  return succeeds(
+      [&] {
+        const State& s = *state_;
+        if (s.file)
+          detail::writeAll(s.path, s.file->descriptor(), line + "\n");
+        else if (s.stream)
+          detail::writeAll(s.path, s.stream->descriptor, line + "\n");
+        else
+          state_->open(line + "\n");
+      },
+      why);
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/observe_parts.h"
+#include "sensor/camera_pose.h"
+
+#include <algorithm>
+
+namespace pcl_sq {
+
+using namespace detail;
+
+bool ViewOptions::isValid(std::string* why) const {
+  const auto refuse = [why](const char* sentence) {
+    if (why)
+      *why = sentence;
+    return false;
+  };
+  if (camera && !camera->isValid(why))
+    return false;
+  if (mask.cells.size() != std::size_t(mask.width) * std::size_t(mask.height))
+    return refuse("the mask must hold width * height pixels");
+  if (viewpoint && !viewpoint->allFinite())
+    return refuse("the viewpoint must be finite");
+  if (up && !(up->allFinite() && up->norm() > 1e-9))
+    return refuse("the direction of up must be finite and not zero");
+  if (table &&
+      (!(std::abs(table->normal.norm() - 1.0) < 1e-3) || !std::isfinite(table->offset)))
+    return refuse("the table's normal must have length one and its offset be finite");
+  if (!(mask_sigma > 0.0 && mask_sigma <= 20.0))
+    return refuse("mask_sigma must lie in (0, 20]");
+  if (!(mask_dilation >= 0.0 && mask_dilation <= 20.0))
+    return refuse("mask_dilation must lie in [0, 20]");
+  if (!(correlation >= 1.0 && correlation <= 100.0))
+    return refuse("correlation must lie in [1, 100]");
+  return true;
+}
+
+const char* toString(OutlineSource source) {
+  switch (source) {
+  case OutlineSource::NONE:
+    return "none";
+  case OutlineSource::MASK:
+    return "mask";
+  case OutlineSource::DEPTH:
+    return "depth";
+  case OutlineSource::POINTS:
+    return "points";
+  }
+  return "unknown";
+}
+
+ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_points,
+                                      int lines,
+                                      bool on_table) const {
+  ViewEvidence e;
+  if (hasCamera()) {
+    for (SilhouetteLine& line : silhouetteLines(outline_points, lines)) {
+      line.offset -= outline_offset;
+      e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
+    }
+    e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
+    e.viewpoint = camera.center;
+  }
+  if (table) {
+    e.up = table->normal;
+    TangentPlane below;
+    below.normal = -table->normal;
+    below.offset = table->offset;
+    below.sigma = std::max(table->sigma, 3e-4);
+    (on_table ? e.tangents : e.limits).push_back(below);
+  }
+  return e;
+}
+
+namespace {
+
+/** \brief The camera of an organized cloud, its intrinsics those that are known. */
+bool findImage(const CloudPoints& points,
+               int width,
+               int height,
+               const ViewOptions& view,
+               PinholeCamera& camera) {
+  const bool found = findCamera(points, width, height, view.viewpoint, camera);
+  if (!view.camera)
+    return found;
+  // intrinsics alone say nothing of the frame: where it is not the camera's own, the
+  // cloud tells better
+  const bool elsewhere = found && !CameraPose(camera).isIdentity() &&
+                         CameraPose(*view.camera).isIdentity();
+  if (!elsewhere)
+    camera = *view.camera;
+  return true;
+}
+
+} // namespace
+
+bool observeObject(const CloudPoints& points,
+                   int width,
+                   int height,
+                   const std::vector<int>& object,
+                   const ViewOptions& view,
+                   ObservedObject& observed,
+                   std::string* why) {
+  observed = {};
+  const auto fail = [&](const std::string& sentence) {
+    observed = {};
+    if (why)
+      *why = sentence;
+    return false;
+  };
+  std::string reason;
+  if (!view.isValid(&reason))
+    return fail(reason);
+  const bool organized = height > 1 && width > 1;
+  const bool has_mask = !view.mask.cells.empty();
+  if (has_mask && (view.mask.width != width || view.mask.height != height))
+    return fail("the mask has " + std::to_string(view.mask.width) + " x " +
+                std::to_string(view.mask.height) + " pixels, the cloud " +
+                std::to_string(width) + " x " + std::to_string(height) +
+                "; give the mask of the same image");
+  PinholeCamera camera;
+  if (!organized || !findImage(points, width, height, view, camera)) {
+    if (organized && has_mask)
+      return fail(
+          "the cloud is no pinhole image, so that its mask cannot be used; give "
+          "the intrinsics or leave out the mask");
+    if (organized)
+      observed.notes.push_back(
+          "the cloud is no image of a camera, although it has rows, so its outline is "
+          "not used; give the camera's intrinsics if it is one");
+    Observation o{points, width, height, object, view, observed};
+    return observeBare(o, reason) || fail(reason);
+  }
+  observed.viewpoint_known = true;
+  const CameraPose pose(camera);
+  observed.camera = camera;
+  if (pose.isIdentity()) {
+    Observation o{points, width, height, object, view, observed};
+    return observeImage(o, reason) || fail(reason);
+  }
+  observed.camera.center.setZero();
+  observed.camera.rotation.setIdentity();
+  const Eigen::Matrix3Xf moved = pose.toCamera(points);
+  const ViewOptions moved_view = pose.toCamera(view);
+  Observation o{moved, width, height, object, moved_view, observed};
+  if (!observeImage(o, reason))
+    return fail(reason);
+  pose.toCloud(observed, points);
+  return true;
+}
+
+} // namespace pcl_sq

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. The two ways to observe an object: in an image, or as bare points.
+#pragma once
+
+#include "sensor/observation.h"
+
+namespace pcl_sq::detail {
+
+[[nodiscard]] bool observeImage(Observation& o, std::string& why);
+[[nodiscard]] bool observeBare(Observation& o, std::string& why);
+
+class DepthPatch;
+/** \brief The object's points that are to be fitted, their columns and effective
+ * number. \param[in] box of the object's pixels \param[in] rim pixels beside the
+ * outline that are left out while enough remain */
+void choosePoints(Observation& o,
+                  const CellRect& box,
+                  const DepthPatch& patch,
+                  int rim);
+/** \brief The table from the points around the object. */
+void findTable(Observation& o, const CellRect& box);
+/** \brief Pixels beside the object's through which the background is seen.
+ * \param[in] margin pixels beside the outline that may be either's */
+void findFreeSpace(Observation& o, const CellRect& box, int margin);
+/** \brief The largest gap in the object's pixels through which the background is seen.
+ * \param[in] box of the object's pixels */
+void findGap(Observation& o, const CellRect& box);
+/** \brief Whether something nearer than the object hides it beyond a contour pixel. */
+bool occluded(const Observation& o, const DepthPatch& patch, int x, int y);
+
+/** \brief Checks a table against the object's points; drops it with a note if they lie
+ * below it. */
+void checkTable(ObservedObject& observed);
+
+/** \brief Height above the table from which on the outline is the object's own; a thin
+ * thing's is the edge of its top. */
+double lowestOutline(const ObservedObject& observed);
+
+/** \brief How far the object may reach below its points: foot and hidden_below.
+ * \param[in] rim pixels beside the outline that were left out */
+void findFoot(Observation& o, const CellRect& box, int rim);
+
+/** \brief Extent and depth from the points. */
+void measure(ObservedObject& observed);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an object is seen against: what hides it and what is seen past it.
+#include "observe/observe_parts.h"
+#include "sensor/depth_patch.h"
+#include "util/order_statistic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outline [px]
+constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
+constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
+
+} // namespace
+
+bool occluded(const Observation& o, const DepthPatch& patch, int x, int y) {
+  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
+  std::array<double, WINDOW> depths, spare;
+  const auto median = [&](std::size_t count) {
+    return orderStatistic(depths.data(), spare.data(), count, count / 2);
+  };
+  const std::size_t others = patch.othersAround(x, y, OCCLUDER_REACH, depths.data());
+  if (others < FEW_OTHERS)
+    return false;
+  const double beside = median(others);
+  const std::size_t own = patch.ownAround(x, y, OCCLUDER_REACH, depths.data());
+  if (own < FEW_OWN)
+    return false;
+  const double mine = median(own);
+  return beside < mine - std::max(0.03 * mine, 0.3 * o.out.extent);
+}
+
+void findFreeSpace(Observation& o, const CellRect& box, int margin) {
+  const bool has_mask = o.out.outline == OutlineSource::MASK;
+  const int reach = std::max(8, (box.width + box.height - 2) / 16);
+  const double area =
+      double(box.width - 1 + 2 * reach) * double(box.height - 1 + 2 * reach);
+  const int step = std::max(1, int(std::sqrt(area / FREE_SPACE)));
+  o.out.free_weight = std::min(1.0, std::pow(step / o.view.correlation, 2));
+  const auto beside = [&](int x, int y) {
+    for (int dy = -margin; dy <= margin; ++dy)
+      for (int dx = -margin; dx <= margin; ++dx)
+        if (o.out.pixels(x + dx, y + dy))
+          return false;
+    return true;
+  };
+  const int x1 = std::min(o.width - 1, box.x + box.width - 1 + reach);
+  const int y1 = std::min(o.height - 1, box.y + box.height - 1 + reach);
+  for (int y = std::max(0, box.y - reach); y <= y1; y += step)
+    for (int x = std::max(0, box.x - reach); x <= x1; x += step) {
+      const int c = y * o.width + x;
+      // without a mask only a measured background counts; an occluder never does
+      const bool known = o.finite(c);
+      if ((!known && !has_mask) || !beside(x, y))
+        continue;
+      if (!known || o.out.camera.depthOf(o.at(c)) > o.out.depth)
+        o.out.free_space.emplace_back(x, y);
+    }
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/whole_cloud.h"
+
+#include "geometry/taper.h"
+#include "pcl_sq/fit_superquadric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
+constexpr int OCTANT = 3 * CELLS * CELLS;
+
+/** \brief A surface in small pieces. */
+struct SurfaceCells {
+  Eigen::Matrix3Xd middles{3, 8 * OCTANT};
+  Eigen::ArrayXd areas{8 * OCTANT};
+};
+
+SurfaceCells surfaceCells(const Superquadric& part) {
+  SurfaceCells cells;
+  const double volume = part.semi_axes.prod() / (CELLS * CELLS);
+  for (int c = 0; c < OCTANT; ++c) {
+    const int face = c / (CELLS * CELLS);
+    Eigen::Vector3d d;
+    d[face] = 1.0;
+    d[(face + 1) % 3] = (c % CELLS + 0.5) / CELLS;
+    d[(face + 2) % 3] = (c / CELLS % CELLS + 0.5) / CELLS;
+    const Eigen::Vector3d local = d.cwiseProduct(part.semi_axes);
+    const LogGauge g = logGauge(local, part.semi_axes, part.epsilon1, part.epsilon2);
+    // the cone over a cell of the cube's face has three times the volume of its part
+    // of the cube; cut off at gauge one, its area vector is volume * grad G / G^3
+    const double shrink = std::exp(-g.value);
+    const double area = volume * shrink * shrink * logGaugeGradient(g, local).norm();
+    const Eigen::Vector3d normal = logGaugeGradient(g, local).normalized();
+    for (int octant = 0; octant < 8; ++octant) {
+      const Eigen::Vector3d sign(
+          octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
+      const Eigen::Vector3d straight = shrink * local.cwiseProduct(sign);
+      cells.middles.col(8 * c + octant) =
+          part.toWorld(straight.cwiseProduct(growth(part, straight.z())));
+      cells.areas[8 * c + octant] =
+          part.isTapered()
+              ? area *
+                    taperedAreaVector(part, straight, normal.cwiseProduct(sign)).norm()
+              : area;
+    }
+  }
+  return cells;
+}
+
+} // namespace
+
+void keepNearer(const Superquadric& body,
+                const Eigen::Matrix3Xd& points,
+                const Eigen::ArrayXd& reach,
+                Eigen::VectorXd& distances) {
+  const Eigen::Matrix3d turn = body.rotation.transpose();
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d local = turn * (points.col(i) - body.center);
+    const Eigen::Vector3d outside = (local.cwiseAbs() - body.halfSizes()).cwiseMax(0.0);
+    if (outside.squaredNorm() <= reach[i] * reach[i])
+      near.push_back(i);
+  }
+  Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
+  for (std::size_t k = 0; k < near.size(); ++k)
+    nearby.col(static_cast<Eigen::Index>(k)) = points.col(near[k]);
+  const Eigen::VectorXd found = surfaceDistances(body, nearby);
+  for (std::size_t k = 0; k < near.size(); ++k)
+    distances[near[k]] =
+        std::min(distances[near[k]], found[static_cast<Eigen::Index>(k)]);
+}
+
+double exposedArea(const std::vector<Superquadric>& parts) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const SurfaceCells cells = surfaceCells(parts[k]);
+    // a cell that another part's surface crosses counts in part
+    const Eigen::ArrayXd half = 0.5 * cells.areas.sqrt();
+    Eigen::VectorXd beyond = half;
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      if (j != k)
+        keepNearer(parts[j], cells.middles, half, beyond);
+    const Eigen::ArrayXd visible = 0.5 + 0.5 * beyond.array() / half;
+    sum += (visible.max(0.0) * cells.areas).sum();
+  }
+  return sum;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/object_piece.h"
+#include "sensor/local_quadric.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr Eigen::Index SAMPLES = 100;
+constexpr Eigen::Index MAX_POINTS = 3000;
+constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
+constexpr std::size_t CURVED = 32; ///< neighbours through which a curved surface goes
+constexpr double SHARING = 5.0;    ///< points of one error for which the fewest suffice
+
+} // namespace
+
+double curvedNoise(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index n = points.cols();
+  if (n < Eigen::Index(2 * CURVED))
+    return 0.0;
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
+  std::vector<double> deviations;
+  Neighbourhood neighbourhood(points, stride);
+  for (Eigen::Index i = 0; i < n; i += step) {
+    const std::vector<Eigen::Index>& near = neighbourhood.of(i, CURVED);
+    const LocalQuadric patch = localQuadric(points, near);
+    if (patch.residuals.size() > 0)
+      deviations.push_back(patch.scatter());
+  }
+  return deviations.empty() ? 0.0 : median(std::move(deviations));
+}
+
+double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
+  const Eigen::Index n = points.cols();
+  // neighbours that share their error hide it: look further
+  const double sharing = double(n) / std::max(1.0, effective_points);
+  const auto neighbours = std::clamp(
+      static_cast<std::size_t>(double(FEWEST) * sharing / SHARING), FEWEST, MOST);
+  if (n < Eigen::Index(2 * neighbours))
+    return 0.0;
+  std::vector<double> deviations;
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
+  Neighbourhood neighbourhood(points, stride);
+  for (Eigen::Index i = 0; i < n; i += step) {
+    const std::vector<Eigen::Index>& near = neighbourhood.of(i, neighbours);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < neighbours; ++k)
+      mean += points.col(near[k]) / double(neighbours);
+    for (std::size_t k = 0; k < neighbours; ++k) {
+      const Eigen::Vector3d d = points.col(near[k]) - mean;
+      square += d * d.transpose() / double(neighbours - 3);
+    }
+    const double smallest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square, Eigen::EigenvaluesOnly)
+            .eigenvalues()[0];
+    deviations.push_back(std::sqrt(std::max(smallest, 0.0)));
+  }
+  return median(std::move(deviations));
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. A piece of an object: its points, its part of the outline and its fit.
+#pragma once
+
+#include "pcl_sq/fit_object.h"
+
+namespace pcl_sq::detail {
+
+/** \brief A plane that separates two pieces; through the camera's centre where there is
+ * one, so that it is a line of the image as well. */
+struct Cut {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  double offset = 0.0;
+  double side(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
+  Cut flipped() const { return {-normal, -offset}; }
+};
+
+struct Piece {
+  std::vector<int> points; ///< columns of the observed object's points
+  std::vector<ContourPoint> contour;
+  std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
+  std::vector<TangentPlane> ends;      ///< where cuts end it, roughly
+  ViewFit fit;
+  double covered = 0.0;  ///< cost of the free pixels that it covers
+  double misfit = 1e300; ///< cost of points, planes and free pixels
+  double score = 1e300;  ///< smaller is better; pieces add up
+  bool final = false;    ///< no cut improved it
+};
+
+/** \brief What all pieces of an object share. */
+struct PieceContext {
+  const ObservedObject& observed;
+  const ObjectFitOptions& options;
+  double noise;                     ///< of the points [m]
+  std::vector<float> precision;     ///< of the observed points; may be empty
+  std::vector<TangentPlane> limits; ///< half-spaces that hold every part, roughly
+};
+
+/** \brief Observed points. */
+Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns);
+
+/** \brief The whole object as one piece. */
+Piece wholePiece(const PieceContext& context);
+
+/** \brief The part of a piece on the positive side of a cut; empty points if too small.
+ */
+Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut);
+
+/** \brief Half the diagonal of the box of a piece's points [m]. */
+double halfSize(const PieceContext& context, const Piece& piece);
+
+/** \brief A cut moved along its normal where the object is [m]; it stays a line of the
+ * image where there is a camera. */
+Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
+
+/** \brief Where a piece may be cut: jumps of its width along its axes. */
+std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
+
+enum class Effort {
+  QUICK, ///< general shape, few starts
+  START, ///< general shape, all starts: where AGAIN goes on from
+  FULL,  ///< all shapes, all starts
+  AGAIN, ///< all shapes from the last fit
+  FINAL  ///< the same, and held off the free pixels
+};
+
+/** \brief Fits a piece and scores it.
+ * \param[in] coaxial another part whose axis it may share, or nullptr */
+void fitPiece(const PieceContext& context,
+              Piece& piece,
+              Effort effort,
+              const Superquadric* coaxial = nullptr);
+
+/** \brief Whether holding a piece off the free pixels is worth a fit. */
+[[nodiscard]] bool coversFreeSpace(const Piece& piece);
+
+/** \brief Two pieces as one; not fitted. */
+Piece mergePieces(const Piece& a, const Piece& b);
+
+/** \brief Noise of the points from their distance to their neighbours' planes [m]. */
+double localNoise(const Eigen::Matrix3Xd& points, double effective_points);
+
+/** \brief The same for independent points, from the distance to curved surfaces: those
+ * of thin parts bend within a few neighbours. */
+double curvedNoise(const Eigen::Matrix3Xd& points);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/outline_gaps.h"
+
+#include "pcl_sq/line_intersection.h"
+#include "util/parallel_for.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Largest cost of one contradiction, as for the points. */
+constexpr double MAX_COST = 9.2;
+/** \brief How far parts may miss the outline, over the object's size: what is no
+ * superquadric cannot be followed closer. */
+constexpr double TOLERANCE = 0.03;
+/** \brief Of the grid of pixels that are looked at. Contradictions beyond the tolerance
+ * are not a mask's errors of a pixel, alike along its border: nearly each counts. */
+constexpr int STEP = 2;
+/** \brief Independent observations per pixel of that grid where depth made the outline:
+ * it errs alike within a matching window. */
+constexpr double OF_DEPTH = 0.08;
+constexpr int MARGIN = 2;     ///< beside the outline, where a pixel may be either's
+constexpr double INSET = 0.2; ///< of the first cut into the gap, over the gap's width
+
+/** \brief The gap's box along its principal axes. */
+struct GapBox {
+  Eigen::Matrix2d axes;
+  Eigen::Vector2d low, high;
+};
+
+GapBox boxOf(const std::vector<Eigen::Vector2d>& gap) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  for (const Eigen::Vector2d& p : gap)
+    mean += p / double(gap.size());
+  for (const Eigen::Vector2d& p : gap)
+    square += (p - mean) * (p - mean).transpose();
+  GapBox box;
+  box.axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(square).eigenvectors();
+  box.low.setConstant(1e300);
+  box.high.setConstant(-1e300);
+  for (const Eigen::Vector2d& p : gap) {
+    const Eigen::Vector2d q = box.axes.transpose() * p;
+    box.low = box.low.cwiseMin(q);
+    box.high = box.high.cwiseMax(q);
+  }
+  return box;
+}
+
+/** \brief Cut along a line of the image; positive where direction . pixel > offset. */
+Cut lineCut(const PieceContext& context,
+            const Eigen::Vector2d& direction,
+            double offset) {
+  SilhouetteLine line;
+  line.direction = direction;
+  line.offset = offset;
+  const TangentPlane plane = tangentPlane(context.observed.camera, line, 1.0, 1.0);
+  return {plane.normal, plane.offset};
+}
+
+/** \brief The parts, larger or smaller by a margin on all sides. */
+std::vector<Superquadric> grown(const std::vector<Piece>& pieces, double margin) {
+  std::vector<Superquadric> parts;
+  for (const Piece& piece : pieces) {
+    Superquadric s = piece.fit.fit.model;
+    s.semi_axes = (s.semi_axes.array() + margin).max(0.2 * s.semi_axes.array());
+    parts.push_back(s);
+  }
+  return parts;
+}
+
+bool meet(const std::vector<Superquadric>& parts,
+          const PinholeCamera& camera,
+          const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d ray = camera.ray(pixel);
+  LineInterval chord;
+  return std::any_of(parts.begin(), parts.end(), [&](const Superquadric& s) {
+    return intersectLineBox(s, camera.center, ray, chord) &&
+           intersectLine(s, camera.center, ray, chord);
+  });
+}
+
+/** \brief The object as the four pieces around its gap: a body, and three sides of a
+ * ring that it closes; empty if there is no gap, or a side of it has too few points. */
+std::vector<Piece> piecesAroundGap(const PieceContext& context, const Piece& whole) {
+  const std::vector<Eigen::Vector2d>& gap = context.observed.gap;
+  if (gap.empty())
+    return {};
+  const GapBox box = boxOf(gap);
+  // the body is on the side of the gap on which most of the object is
+  std::array<int, 4> beyond{};
+  for (const Eigen::Vector2d& p : whole.pixels) {
+    const Eigen::Vector2d q = box.axes.transpose() * p;
+    for (int k = 0; k < 2; ++k) {
+      beyond[std::size_t(2 * k)] += q[k] < box.low[k];
+      beyond[std::size_t(2 * k + 1)] += q[k] > box.high[k];
+    }
+  }
+  const auto side =
+      std::size_t(std::max_element(beyond.begin(), beyond.end()) - beyond.begin());
+  const int across = int(side / 2), along = 1 - across;
+  const Eigen::Vector2d outwards =
+      side % 2 == 0 ? box.axes.col(across) : Eigen::Vector2d(-box.axes.col(across));
+  const double inner = side % 2 == 0 ? box.low[across] : -box.high[across];
+  const double width = box.high[across] - box.low[across];
+  const Eigen::Vector2d axis = box.axes.col(along);
+  const Cut handle = lineCut(context, outwards, inner + INSET * width);
+  const Cut below = lineCut(context, axis, box.low[along]);
+  const Cut above = lineCut(context, axis, box.high[along]);
+  const Piece ring = cutPiece(context, whole, handle);
+  const Piece upper = cutPiece(context, ring, below);
+  std::vector<Piece> pieces = {cutPiece(context, whole, handle.flipped()),
+                               cutPiece(context, ring, below.flipped()),
+                               cutPiece(context, upper, above.flipped()),
+                               cutPiece(context, upper, above)};
+  for (const Piece& piece : pieces)
+    if (piece.points.empty())
+      return {};
+  return pieces;
+}
+
+/** \brief Cost of where the outline and that of all parts together contradict each
+ * other: of free pixels that they cover, of the object's that they leave. */
+double outlineCost(const PieceContext& context, const std::vector<Piece>& pieces) {
+  const ObservedObject& o = context.observed;
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
+  const double margin = std::max(o.outline_sigma * pixel, TOLERANCE * o.extent);
+  const std::vector<Superquadric> larger = grown(pieces, margin);
+  const std::vector<Superquadric> smaller = grown(pieces, -margin);
+  int contradictions = 0;
+  const CellRect box = boundingRect(o.pixels);
+  for (int y = box.y; y < box.y + box.height; y += STEP)
+    for (int x = box.x; x < box.x + box.width; x += STEP)
+      if (o.pixels(x, y) && o.pixels(x - MARGIN, y) && o.pixels(x + MARGIN, y) &&
+          o.pixels(x, y - MARGIN) && o.pixels(x, y + MARGIN))
+        contradictions += !meet(larger, o.camera, {x, y});
+  for (const Eigen::Vector2d& p : o.gap)
+    if (int(p.x()) % STEP == 0 && int(p.y()) % STEP == 0)
+      contradictions += meet(smaller, o.camera, p);
+  return MAX_COST * contradictions *
+         (o.outline == OutlineSource::MASK ? 1.0 : OF_DEPTH);
+}
+
+/** \brief What the parts leave unexplained, points and outline together. */
+double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
+  double score = outlineCost(context, pieces);
+  for (const Piece& piece : pieces)
+    score += piece.score;
+  return score;
+}
+
+} // namespace
+
+void openGap(const PieceContext& context, std::vector<Piece>& pieces, double min_gain) {
+  std::vector<Piece> ring = piecesAroundGap(context, wholePiece(context));
+  if (ring.empty())
+    return;
+  parallelFor(ring.size(), context.options.fit.threads, [&](std::size_t i) {
+    fitPiece(context, ring[i], Effort::FULL);
+  });
+  if (scoreOf(context, ring) < scoreOf(context, pieces) - min_gain)
+    pieces = std::move(ring);
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Parts of an object that is seen from all sides, judged together: where its
+// points are and where there are none tell more than each part's own points do.
+#pragma once
+
+#include "parts/object_piece.h"
+
+namespace pcl_sq::detail {
+
+/** \brief Splits an object without a camera while that pays, its parts fitted to the
+ * points nearest to each.
+ * \param[in] whole all points, fitted
+ * \param[in] wanted largest number of parts, or the number itself
+ * \param[in] exactly whether \a wanted is the number
+ * \param[in] min_gain of the score, for one more part */
+std::vector<Piece> splitWholeCloud(const PieceContext& context,
+                                   Piece whole,
+                                   int wanted,
+                                   bool exactly,
+                                   double min_gain);
+
+/** \brief Area of the surface of a union, without what lies inside of it [m^2]. */
+double exposedArea(const std::vector<Superquadric>& parts);
+
+/** \brief Replaces distances of points by those to a body where they are smaller.
+ * Points whose distance to it is sure to exceed their reach may keep theirs [m]. */
+void keepNearer(const Superquadric& body,
+                const Eigen::Matrix3Xd& points,
+                const Eigen::ArrayXd& reach,
+                Eigen::VectorXd& distances);
+
+} // namespace pcl_sq::detail

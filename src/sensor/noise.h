@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. How far measured points err, and how many of them err alike.
+#pragma once
+
+#include "sensor/depth_patch.h"
+
+namespace pcl_sq::detail {
+
+/** \brief How far each point's surface moves along its normal when the measurement
+ * belongs a pixel beside the point's own [m]. */
+Eigen::VectorXf lateralNoise(const Observation& o, const DepthPatch& patch);
+
+/** \brief How many points share one error: 1 where neighbours err independently. */
+double sharingOfErrors(const Eigen::Matrix3Xd& points);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/segmentation/depth_objects.h"
+
+#include "stereo/segmentation/depth_patches.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pcl_sq::detail {
+namespace {
+
+constexpr double STEEP = 50.0 * M_PI / 180.0; // largest tilt of a table in the image
+constexpr float NOISE = 0.008f;               // of a plane's points, of the depth
+
+cv::Rect wholeImage(const ColorCloud& cloud) {
+  return {0, 0, static_cast<int>(cloud.width), static_cast<int>(cloud.height)};
+}
+
+/** \brief Number of cells of each label. */
+std::vector<int> sizesOf(const cv::Mat& labels, int count, const cv::Mat& where) {
+  std::vector<int> sizes(static_cast<std::size_t>(count) + 1, 0);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; ++u)
+      if (where.at<std::uint8_t>(v, u) != 0)
+        ++sizes[static_cast<std::size_t>(labels.at<int>(v, u))];
+  return sizes;
+}
+
+/** \brief The two outermost cells all round. */
+cv::Mat rimOf(const cv::Size& size) {
+  cv::Mat rim(size, CV_8U, cv::Scalar(255));
+  if (size.width > 4 && size.height > 4)
+    rim(cv::Rect(2, 2, size.width - 4, size.height - 4)).setTo(0);
+  return rim;
+}
+
+/** \brief What speaks for a patch: its size, if it keeps off the image's border. */
+int bestPatch(const cv::Mat& labels, int count) {
+  const std::vector<int> size =
+      sizesOf(labels, count, cv::Mat(labels.size(), CV_8U, cv::Scalar(255)));
+  const std::vector<int> rim = sizesOf(labels, count, rimOf(labels.size()));
+  const int least = std::max(20, labels.rows * labels.cols / 2000);
+  int best = 0, best_size = 0;
+  for (const bool inner_only : {true, false}) {
+    for (int k = 1; k <= count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (size[i] >= least && size[i] > best_size && (!inner_only || rim[i] == 0)) {
+        best = k;
+        best_size = size[i];
+      }
+    }
+    if (best != 0)
+      return best;
+  }
+  return best;
+}
+
+bool findTable(const DepthGrid& grid, float tolerance, DepthPlane& plane) {
+  constexpr double LEAST = 0.05;
+  return findPlane(grid, grid.finite, tolerance, STEEP, LEAST, plane) ||
+         findPlane(grid, grid.finite, tolerance, 0.5 * M_PI, LEAST, plane);
+}
+
+/** \brief The plane around a box, if the box's middle does not lie on it as well. */
+bool findPlaneAround(const DepthGrid& grid,
+                     const cv::Mat& core,
+                     const cv::Rect& inner,
+                     float tolerance,
+                     DepthPlane& plane) {
+  constexpr double LEAST = 0.2; // of what is seen around the box
+  pcl::Indices ring, middle;
+  for (const pcl::index_t i : grid.finite) {
+    const cv::Point cell(i % grid.width, i / grid.width);
+    if (!inner.contains(cell * grid.step))
+      ring.push_back(i);
+    else if (core.at<std::uint8_t>(cell) != 0)
+      middle.push_back(i);
+  }
+  if (!findPlane(grid, ring, tolerance, STEEP, LEAST, plane))
+    return false;
+  const auto on = std::count_if(middle.begin(), middle.end(), [&](pcl::index_t i) {
+    const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
+    return plane.head<3>().dot(p.getVector3fMap()) + plane[3] < tolerance;
+  });
+  return 2 * on < static_cast<std::ptrdiff_t>(middle.size());
+}
+
+/** \brief Distance of each pixel to the set ones, CV_32F [px]. */
+cv::Mat distanceTo(const cv::Mat& mask) {
+  cv::Mat distance;
+  cv::distanceTransform(mask == 0, distance, cv::DIST_L2, 3);
+  return distance;
+}
+
+} // namespace
+
+bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why) {
+  const DepthGrid grid(cloud, wholeImage(cloud));
+  if (grid.finite.size() < 100) {
+    why = "the cloud has hardly any point; check the stereo images";
+    return false;
+  }
+  const float tolerance = NOISE * grid.medianDepth();
+  DepthPlane plane;
+  if (!findTable(grid, tolerance, plane)) {
+    why = "there is no table, that is no large plane; give a hint where the object is";
+    return false;
+  }
+  int count = 0;
+  const cv::Mat labels = labelPatches(grid, &plane, tolerance, &count);
+  const int best = bestPatch(labels, count);
+  if (best == 0) {
+    why = "nothing stands on the largest plane; give a hint where the object is";
+    return false;
+  }
+  mask = grid.toPixels(labels == best);
+  return true;
+}
+
+bool labelObjectInBox(const ColorCloud& cloud,
+                      const cv::Rect& box,
+                      const cv::Rect& window,
+                      cv::Mat& labels) {
+  const DepthGrid grid(cloud, window);
+  const cv::Rect inner = box - window.tl();
+  cv::Mat core = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  cv::ellipse(core,
+              cv::Point(inner.x + inner.width / 2, inner.y + inner.height / 2) /
+                  grid.step,
+              cv::Size(inner.width * 2 / 5, inner.height * 2 / 5) / grid.step,
+              0,
+              0,
+              360,
+              255,
+              cv::FILLED);
+  if (grid.finite.size() < 20)
+    return false;
+  const float tolerance = NOISE * grid.medianDepth();
+  DepthPlane plane;
+  const bool table = findPlaneAround(grid, core, inner, tolerance, plane);
+  int count = 0;
+  const cv::Mat patches =
+      labelPatches(grid, table ? &plane : nullptr, tolerance, &count);
+  const std::vector<int> sizes = sizesOf(patches, count, core);
+  const auto best = std::max_element(sizes.begin() + 1, sizes.end());
+  if (best == sizes.end() || *best < 0.2 * cv::countNonZero(core))
+    return false;
+  const cv::Mat patch = patches == static_cast<int>(best - sizes.begin());
+  cv::Mat known = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  for (const pcl::index_t i : grid.finite)
+    known.ptr<std::uint8_t>()[i] = 255;
+  const cv::Mat object = grid.toPixels(patch);
+  const cv::Mat to_object = distanceTo(object);
+  const cv::Mat to_others = distanceTo(grid.toPixels(known & ~patch) & ~object);
+  labels.create(window.size(), CV_8U);
+  labels.setTo(cv::GC_PR_BGD);
+  labels.setTo(cv::GC_PR_FGD, to_object <= to_others);
+  // thin parts, as a handle, may have the depth of what is behind them
+  const double reach = 0.25 * std::min(box.width, box.height);
+  labels.setTo(cv::GC_BGD, to_object > reach);
+  return true;
+}
+
+bool findObjectAt(const ColorCloud& cloud, const cv::Point& pixel, cv::Mat& mask) {
+  constexpr int NEAR = 3; // cells around the pixel: it may itself be without a match
+  const DepthGrid grid(cloud, wholeImage(cloud));
+  if (grid.finite.size() < 100)
+    return false;
+  const float tolerance = NOISE * grid.medianDepth();
+  DepthPlane plane;
+  int count = 0;
+  const bool table = findTable(grid, tolerance, plane);
+  const cv::Mat labels =
+      labelPatches(grid, table ? &plane : nullptr, tolerance, &count);
+  cv::Mat near = cv::Mat::zeros(labels.size(), CV_8U);
+  cv::circle(near, pixel / grid.step, NEAR, 255, cv::FILLED);
+  std::vector<int> votes = sizesOf(labels, count, near);
+  votes[0] = 0;
+  const auto best = std::max_element(votes.begin(), votes.end());
+  if (*best == 0)
+    return false;
+  const cv::Mat patch = labels == static_cast<int>(best - votes.begin());
+  const int area = cv::countNonZero(patch), total = static_cast<int>(labels.total());
+  if (cv::countNonZero(patch & rimOf(labels.size())) > 0 || area > total / 4 ||
+      area < std::max(20, total / 2000))
+    return false;
+  mask = grid.toPixels(patch);
+  return true;
+}
+
+double
+shareAtDepthOf(const ColorCloud& cloud, const cv::Mat& patch, const cv::Mat& mask) {
+  std::vector<float> own, others;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!std::isfinite(cloud[i].z))
+      continue;
+    if (patch.ptr<std::uint8_t>()[i] != 0)
+      own.push_back(cloud[i].z);
+    if (mask.ptr<std::uint8_t>()[i] != 0)
+      others.push_back(cloud[i].z);
+  }
+  if (own.empty() || others.empty())
+    return 1.0;
+  std::sort(own.begin(), own.end());
+  const float near = own[own.size() / 20], far = own[own.size() - 1 - own.size() / 20];
+  const float margin = far - near + 0.02f * far; // a patch may end before the object
+  const auto count = std::count_if(others.begin(), others.end(), [&](float z) {
+    return z > near - margin && z < far + margin;
+  });
+  return static_cast<double>(count) / static_cast<double>(others.size());
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "table/depth_regions.h"
+
+#include "util/voxel_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int MIN_PIXELS = 100;
+constexpr int MIN_PIECE = 10;  ///< pixels of a further piece of a thing
+constexpr float REACH = 0.25F; ///< of a thing's size: between the depths of its pieces
+constexpr double GAIN = 0.05;  ///< of the overlap, by a further piece
+constexpr double MIN_OVERLAP = 0.3; ///< of a thing's box with the one drawn around it
+constexpr double JUMP =
+    0.025; ///< of the depth: neighbours further apart are two things
+
+/** \brief Regions of pixels that are set, connected without a jump in depth. */
+class Regions {
+public:
+  Regions(const CloudPoints& points, CellMask above)
+      : points_(points), left_(std::move(above)) {}
+
+  /** \brief The next region; empty when there is none left. */
+  Region next() {
+    Region region;
+    while (at_ < left_.cells.size() && !left_.cells[at_])
+      ++at_;
+    if (at_ == left_.cells.size())
+      return region;
+    visit(static_cast<int>(at_), region);
+    for (std::size_t i = 0; i < region.pixels.size(); ++i)
+      grow(region.pixels[i], region);
+    return region;
+  }
+
+private:
+  void visit(int c, Region& region) {
+    left_.cells[std::size_t(c)] = 0;
+    region.pixels.push_back(c);
+  }
+  void grow(int c, Region& region) {
+    const int x = c % left_.width, y = c / left_.width;
+    region.sides |= int(x == 0) | int(y == 0) << 1 | int(x == left_.width - 1) << 2 |
+                    int(y == left_.height - 1) << 3;
+    const float depth = points_(2, c);
+    // two pixels far, across missing ones
+    for (int dy = -2; dy <= 2; ++dy)
+      for (int dx = -2; dx <= 2; ++dx) {
+        if (!left_(x + dx, y + dy))
+          continue;
+        const int d = c + dy * left_.width + dx;
+        if (std::abs(points_(2, d) - depth) < JUMP * std::abs(depth))
+          visit(d, region);
+      }
+  }
+
+  const CloudPoints& points_;
+  CellMask left_;
+  std::size_t at_ = 0;
+};
+
+CellRect boxOf(const std::vector<int>& pixels, int width) {
+  CellRect box;
+  int x1 = 0, y1 = 0;
+  box.x = box.y = std::numeric_limits<int>::max();
+  for (const int c : pixels) {
+    box.x = std::min(box.x, c % width);
+    box.y = std::min(box.y, c / width);
+    x1 = std::max(x1, c % width + 1);
+    y1 = std::max(y1, c / width + 1);
+  }
+  box.width = x1 - box.x;
+  box.height = y1 - box.y;
+  return box;
+}
+
+double overlap(const CellRect& a, const CellRect& b) {
+  const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const double h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  const double both = std::max(0.0, w) * std::max(0.0, h);
+  return both / (a.area() + b.area() - both);
+}
+
+/** \brief Adds to a thing the pieces of it behind its own rim, such as a cup's inside:
+ * above no more than itself in the image, and in space they hang together with it. */
+void addPieces(const std::vector<Region>& all,
+               const CloudPoints& points,
+               int width,
+               Region& thing) {
+  const CellRect box = boxOf(thing.pixels, width);
+  const int beside = std::max(2, box.width / 10); // rims are wider than what they crown
+  std::vector<int> columns = thing.pixels;
+  std::vector<const Region*> pieces;
+  for (const Region& r : all) {
+    const CellRect at = boxOf(r.pixels, width);
+    if (r.cut() || at.x < box.x - beside ||
+        at.x + at.width > box.x + box.width + beside || at == box)
+      continue;
+    pieces.push_back(&r);
+    columns.insert(columns.end(), r.pixels.begin(), r.pixels.end());
+  }
+  if (pieces.empty())
+    return;
+  double depth = 0.0;
+  for (const int c : thing.pixels)
+    depth += double(points(2, c)) / double(thing.pixels.size());
+  // cells that touch are up to twice their side apart
+  std::vector<int> cluster_of(std::size_t(points.cols()), -1);
+  int number = 0;
+  for (const std::vector<int>& cluster :
+       clustersOf(points, columns, 0.5 * JUMP * depth)) {
+    for (const int c : cluster)
+      cluster_of[std::size_t(c)] = number;
+    ++number;
+  }
+  std::vector<std::size_t> own(std::size_t(number), 0);
+  for (const int c : thing.pixels)
+    ++own[std::size_t(cluster_of[std::size_t(c)])];
+  const auto main = std::max_element(own.begin(), own.end()) - own.begin();
+  for (const Region* r : pieces)
+    if (cluster_of[std::size_t(r->pixels[r->pixels.size() / 2])] == main)
+      thing.pixels.insert(thing.pixels.end(), r->pixels.begin(), r->pixels.end());
+}
+
+struct DepthRange {
+  float near = std::numeric_limits<float>::max(), far = 0.0F;
+};
+
+DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
+  DepthRange range;
+  for (const int c : pixels) {
+    range.near = std::min(range.near, points(2, c));
+    range.far = std::max(range.far, points(2, c));
+  }
+  return range;
+}
+
+} // namespace
+
+Region largestThing(const CloudPoints& points, const CellMask& above) {
+  Regions regions(points, above);
+  std::vector<Region> all;
+  Region best;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
+    const bool better = r.cut() == best.cut() ? r.pixels.size() > best.pixels.size()
+                                              : best.cut() || best.pixels.empty();
+    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && r.cutOnce() && better)
+      best = r;
+    if (r.pixels.size() >= std::size_t(MIN_PIECE))
+      all.push_back(std::move(r));
+  }
+  if (!best.pixels.empty())
+    addPieces(all, points, above.width, best);
+  return best;
+}
+
+std::vector<int> thingOfBox(const CloudPoints& points,
+                            const CellMask& above,
+                            const CellRect& box,
+                            float size) {
+  const int width = above.width;
+  Regions regions(points, above);
+  std::vector<Region> all;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
+    if (r.pixels.size() >= std::size_t(MIN_PIECE))
+      all.push_back(std::move(r));
+  std::vector<int> thing;
+  double fit = MIN_OVERLAP;
+  const auto merged = [&](const Region& r) {
+    std::vector<int> both = thing;
+    both.insert(both.end(), r.pixels.begin(), r.pixels.end());
+    return both;
+  };
+  for (bool first = true; true; first = false) {
+    auto best = all.end();
+    double least = fit + (first ? 0.0 : GAIN);
+    const DepthRange own = depthsOf(thing, points);
+    const float reach = REACH * 0.5F * (own.near + own.far) * size;
+    for (auto r = all.begin(); r != all.end(); ++r) {
+      const DepthRange depths = depthsOf(r->pixels, points);
+      const bool beside =
+          first || (depths.near < own.far + reach && depths.far > own.near - reach);
+      const double o = overlap(boxOf(merged(*r), width), box);
+      if (beside && o > least &&
+          (!first || r->pixels.size() >= std::size_t(MIN_PIXELS))) {
+        least = o;
+        best = r;
+      }
+    }
+    if (best == all.end())
+      break;
+    fit = least;
+    thing = merged(*best);
+    all.erase(best);
+  }
+  if (thing.empty())
+    return thing;
+  const DepthRange own = depthsOf(thing, points);
+  for (const Region& r : all) {
+    const CellRect at = boxOf(r.pixels, width);
+    const bool whole = at.x > box.x && at.y > box.y &&
+                       at.x + at.width < box.x + box.width &&
+                       at.y + at.height < box.y + box.height;
+    const DepthRange depths = depthsOf(r.pixels, points);
+    if (whole && depths.near >= own.near && depths.far <= own.far)
+      thing.insert(thing.end(), r.pixels.begin(), r.pixels.end());
+  }
+  return thing;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_sq/oriented_box.h"
+
+#include "union/simplex.h"
+
+namespace pcl_sq {
+
+namespace {
+
+constexpr int MAX_STEPS = 64;
+
+/** \brief Point of the box farthest along n. */
+Eigen::Vector3d farthest(const OrientedBox& box, const Eigen::Vector3d& n) {
+  Eigen::Vector3d local = box.rotation.transpose() * n;
+  for (int k = 0; k < 3; ++k)
+    local[k] = std::copysign(box.half_sizes[k], local[k]);
+  return box.center + box.rotation * local;
+}
+
+/** \brief Whether the box and the superquadric's own box are apart along a face normal
+ * of either: no power needed, and enough for most pairs. \param[out] axis
+ * the box's normal with the largest gap */
+bool apartByFaces(const OrientedBox& box,
+                  const Superquadric& s,
+                  double clearance,
+                  Eigen::Index& axis) {
+  const Eigen::Matrix3d size = (box.rotation.transpose() * s.rotation).cwiseAbs();
+  const Eigen::Vector3d half = s.halfSizes();
+  const Eigen::Vector3d offset = s.center - box.center;
+  const Eigen::Array3d gaps = (box.rotation.transpose() * offset).cwiseAbs().array() -
+                              (box.half_sizes + size * half).array();
+  if (gaps.maxCoeff(&axis) > clearance)
+    return true;
+  return ((s.rotation.transpose() * offset).cwiseAbs().array() >
+          (half + size.transpose() * box.half_sizes).array() + clearance)
+      .any();
+}
+
+/** \brief Point of the box nearest to another. */
+Eigen::Vector3d nearest(const OrientedBox& box, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d local = box.rotation.transpose() * (point - box.center);
+  return box.center +
+         box.rotation * local.cwiseMax(-box.half_sizes).cwiseMin(box.half_sizes);
+}
+
+/** \brief Gilbert-Johnson-Keerthi. \param[in] enough distance from which the pair
+ * counts as apart: the search ends as soon as it is on one side of it (infinite: find
+ * the distance itself) \return the distance, or a bound of it on the side of enough */
+double
+gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_distance) {
+  detail::Simplex simplex;
+  Eigen::Vector3d v = box.center - s.center;
+  if (v.isZero(0.0))
+    return 0.0;
+  double lower = 0.0;
+  for (int step = 0; step < MAX_STEPS; ++step) {
+    const double length = v.norm();
+    const Eigen::Vector3d w = farthest(box, -v) - s.supportPoint(v);
+    lower = std::max(lower, v.dot(w) / length);
+    if (!find_distance && lower >= enough)
+      return lower;
+    const bool converged = step > 0 && length - lower <= 1e-7 * length + 1e-12;
+    if (converged || simplex.contains(w))
+      return step > 0 ? length : lower;
+    simplex.add(w);
+    v = simplex.closestToOrigin();
+    if (simplex.size() == 4 || v.norm() < 1e-12)
+      return 0.0;
+    if (!find_distance && v.norm() < enough)
+      return v.norm();
+  }
+  return v.norm();
+}
+
+} // namespace
+
+std::array<Eigen::Vector3d, 8> OrientedBox::corners() const {
+  std::array<Eigen::Vector3d, 8> all;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Eigen::Vector3d signs(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
+    all[i] = center + rotation * half_sizes.cwiseProduct(signs);
+  }
+  return all;
+}
+
+TriangleMesh meshBox(const OrientedBox& box) {
+  TriangleMesh mesh;
+  const auto corners = box.corners();
+  mesh.vertices.assign(corners.begin(), corners.end());
+  mesh.triangles = {{0, 2, 1},
+                    {1, 2, 3},
+                    {4, 5, 6},
+                    {5, 7, 6},
+                    {0, 1, 4},
+                    {1, 5, 4},
+                    {2, 6, 3},
+                    {3, 6, 7},
+                    {0, 4, 2},
+                    {2, 4, 6},
+                    {1, 3, 5},
+                    {3, 7, 5}};
+  return mesh;
+}
+
+double distance(const OrientedBox& box, const Superquadric& superquadric) {
+  return std::max(gjk(box, superquadric, 0.0, true), 0.0);
+}
+
+bool collides(const OrientedBox& box,
+              const Superquadric& superquadric,
+              double clearance) {
+  Eigen::Index axis;
+  if (apartByFaces(box, superquadric, clearance, axis))
+    return false;
+  // a gripper's pads are tangent planes: their normal separates most of what is left
+  Eigen::Vector3d n = box.rotation.col(axis);
+  if (n.dot(superquadric.center - box.center) < 0.0)
+    n = -n;
+  if (n.dot(superquadric.center) - superquadric.support(-n) - box.support(n) >
+      clearance)
+    return false;
+  if (superquadric.gauge(nearest(box, superquadric.center)) <= 1.0)
+    return true;
+  const double enough = std::max(clearance, 1e-9);
+  return gjk(box, superquadric, enough, false) < enough;
+}
+
+} // namespace pcl_sq

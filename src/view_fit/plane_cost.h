@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. The cost of tangent planes and half-spaces beside that of the points.
+#pragma once
+
+#include "pcl_sq/tangent_plane.h"
+#include "solver/levenberg_marquardt.h"
+
+#include <vector>
+
+namespace pcl_sq::detail {
+
+/** \brief Twice the logarithm of the prior odds, about 400 to 1, that a part shares the
+ * axis of the solid of revolution beside it: things are turned on lathes, wheels and
+ * moulds. */
+inline constexpr double SHARED_AXIS = 12.0;
+
+/** \brief Twice the logarithm of the prior odds against a taper: what one view shows of
+ * a body, noise that is not alike everywhere, and parts that meet all feign one
+ * (TaperedFit::DEMAND says the same in nats). */
+inline constexpr double TAPER = 20.0;
+
+/** \brief Standard deviation of the logarithm of depth over width. */
+inline constexpr double DEPTH_SIGMA = 0.4;
+
+/** \brief Squared, weighted support residuals, in the frame of the points.
+ *
+ * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is
+ * integrated out: sum z^2 - (sum z u)^2 / (sum u^2 + 1 / dilation_sigma^2), with z the
+ * residuals over their sigmas and u the inverse sigmas; the Gauss-Newton matrix loses
+ * the same term of rank one.
+ *
+ * What the camera cannot see is unlikely to be much deeper than what it sees is wide:
+ * ln(half depth / half width) ~ N(0, DEPTH_SIGMA^2) where it is positive. That is next
+ * to nothing beside any evidence and decides where there is none: a rod, seen from the
+ * side, may otherwise be the edge of a plate. */
+struct PlaneCost {
+  std::vector<TangentPlane> silhouette; ///< tangents with a common dilation
+  std::vector<TangentPlane> tangents;   ///< planes that the body touches
+  std::vector<TangentPlane> limits;     ///< half-spaces that hold the body
+  double dilation_sigma = 0.0;          ///< 0: the silhouette is exact
+  /** \brief Direction away from the camera, unit length. */
+  Eigen::Vector3d view = Eigen::Vector3d::UnitZ();
+  /** \brief Half the body's smaller width across the view; 0: no prior on its depth. */
+  double half_width = 0.0;
+  /** \brief What a residual of one sigma costs, as a length: makes the costs of planes
+   * and points comparable. */
+  double unit = 1.0;
+
+  bool empty() const {
+    return silhouette.empty() && tangents.empty() && limits.empty() &&
+           half_width == 0.0;
+  }
+};
+
+} // namespace pcl_sq::detail
