@@ -181,6 +181,22 @@ void dropStrays(const FrontResult& front, LoadedCloud& scene) {
   }
 }
 
+/** \brief The pair's own noise as that of its points: Z^2 / (f b) a pixel. */
+void tellNoise(const StereoResult& stereo, ViewOptions& view) {
+  if (stereo.disparity_sigma.empty())
+    return;
+  view.correlation = stereo.correlation;
+  const double per_pixel = 1.0 / (stereo.intrinsics.fx * stereo.intrinsics.baseline);
+  const auto* sigma = stereo.disparity_sigma.ptr<float>();
+  view.noise.resize(static_cast<Eigen::Index>(stereo.cloud->size()));
+  for (Eigen::Index i = 0; i < view.noise.size(); ++i) {
+    const auto z = double((*stereo.cloud)[static_cast<std::size_t>(i)].z);
+    view.noise[i] = std::isfinite(z)
+                        ? static_cast<float>(z * z * per_pixel * double(sigma[i]))
+                        : 1.0F;
+  }
+}
+
 /** \brief Tells the model half what the images gave. The best mode looks at the whole
  * scene through the outline, the paper's chain at the object's points in their box. */
 void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
@@ -194,6 +210,7 @@ void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
         model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
     return;
   }
+  tellNoise(front.stereo, model.estimation.view);
   const cv::Mat& mask = front.segment.mask;
   if (mask.empty()) {
     model.roi = {front.rect.x, front.rect.y, front.rect.width, front.rect.height};

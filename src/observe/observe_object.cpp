@@ -25,6 +25,8 @@ bool ViewOptions::isValid(std::string* why) const {
   if (table &&
       (!(std::abs(table->normal.norm() - 1.0) < 1e-3) || !std::isfinite(table->offset)))
     return refuse("the table's normal must have length one and its offset be finite");
+  if (noise.size() > 0 && !(noise.minCoeff() > 0.0F && noise.allFinite()))
+    return refuse("the points' noise must be finite and positive");
   if (!(mask_sigma > 0.0 && mask_sigma <= 20.0))
     return refuse("mask_sigma must lie in (0, 20]");
   if (!(mask_dilation >= 0.0 && mask_dilation <= 20.0))
@@ -48,6 +50,36 @@ const char* toString(OutlineSource source) {
   return "unknown";
 }
 
+namespace {
+
+/** \brief How well the border of an image that cuts an object says where it ends, over
+ * its size: most of it is seen, or nobody would have drawn a box around it. */
+constexpr double BORDER_SIGMA = 0.25;
+
+/** \brief Nobody knows what lies beyond the image's border: a model ends about there.
+ */
+void addBorders(const ObservedObject& object, std::vector<TangentPlane>& limits) {
+  const CellMask& mask = object.pixels;
+  if (mask.cells.empty())
+    return;
+  const CellRect box = boundingRect(mask);
+  const auto add = [&](bool cut, double x, double y, double offset) {
+    if (!cut)
+      return;
+    SilhouetteLine border;
+    border.direction = {x, y};
+    border.offset = offset;
+    limits.push_back(tangentPlane(object.camera, border, 1.0, object.depth));
+    limits.back().sigma = BORDER_SIGMA * object.extent;
+  };
+  add(box.x == 0, -1.0, 0.0, 0.5);
+  add(box.y == 0, 0.0, -1.0, 0.5);
+  add(box.x + box.width == mask.width, 1.0, 0.0, mask.width - 0.5);
+  add(box.y + box.height == mask.height, 0.0, 1.0, mask.height - 0.5);
+}
+
+} // namespace
+
 ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_points,
                                       int lines,
                                       bool on_table) const {
@@ -60,6 +92,7 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
+  addBorders(*this, e.limits);
   if (table) {
     e.up = table->normal;
     TangentPlane below;

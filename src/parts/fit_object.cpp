@@ -262,15 +262,28 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
-/** \brief Of each point: the noise's variance over that and what slant adds. */
+/** \brief Of each point: the noise's variance over that of its own, with what slant
+ * adds. */
 std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   std::vector<float> precision;
   if (!(noise > 0.0))
     return precision;
-  for (const float error : observed.sideways)
-    precision.push_back(static_cast<float>(
-        1.0 / (1.0 + std::pow(SIDEWAYS * double(error) / noise, 2))));
+  for (Eigen::Index i = 0; i < observed.sideways.size(); ++i) {
+    const double own =
+        observed.noise.size() > 0 ? double(observed.noise[i]) / noise : 1.0;
+    const double slant = SIDEWAYS * double(observed.sideways[i]) / noise;
+    precision.push_back(static_cast<float>(1.0 / (own * own + slant * slant)));
+  }
   return precision;
+}
+
+/** \brief What most points err by at most, where that is known. */
+double medianNoise(const ObservedObject& observed) {
+  std::vector<float> noise(observed.noise.data(),
+                           observed.noise.data() + observed.noise.size());
+  const auto middle = noise.begin() + std::ptrdiff_t(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return double(*middle);
 }
 
 } // namespace
@@ -290,8 +303,10 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   if (spannedDimensions(observed.points) < 3)
     return fit;
   double noise = options.fit.noise;
+  const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
-    noise = observed.hasCamera()
+    noise = measured ? medianNoise(observed)
+            : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
                 : curvedNoise(observed.points);
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
@@ -308,10 +323,11 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     return fit;
   if (split) {
     context.noise =
-        Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
+        Eigen::Vector3d(measured ? noise : std::min(noise, pieces[0].fit.noise),
                         MODEL_ERROR * observed.extent,
-                        observed.pixels.cells.empty() ? 0.0
-                                                      : SENSOR_ERROR * observed.depth)
+                        measured || observed.pixels.cells.empty()
+                            ? 0.0
+                            : SENSOR_ERROR * observed.depth)
             .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
