@@ -52,30 +52,32 @@ const char* toString(OutlineSource source) {
 
 namespace {
 
-/** \brief How well the border of an image that cuts an object says where it ends, over
- * its size: most of it is seen, or nobody would have drawn a box around it. */
-constexpr double BORDER_SIGMA = 0.25;
+/** \brief How well the edge of what hides an object, or of the image, says where it
+ * ends, over its size: most of it is seen, or nobody would have pointed at it. */
+constexpr double HIDDEN_SIGMA = 0.05;
 
-/** \brief Nobody knows what lies beyond the image's border: a model ends about there.
- */
-void addBorders(const ObservedObject& object, std::vector<TangentPlane>& limits) {
-  const CellMask& mask = object.pixels;
-  if (mask.cells.empty())
+/** \brief Where the outline is not the object's own, at an occluder or the border of the
+ * image, nobody knows how it goes on: a model ends about there unless evidence says
+ * more. */
+void addHiddenEnds(const ObservedObject& object,
+                   int lines,
+                   std::vector<TangentPlane>& limits) {
+  if (object.pixels.cells.empty())
     return;
-  const CellRect box = boundingRect(mask);
-  const auto add = [&](bool cut, double x, double y, double offset) {
-    if (!cut)
-      return;
-    SilhouetteLine border;
-    border.direction = {x, y};
-    border.offset = offset;
-    limits.push_back(tangentPlane(object.camera, border, 1.0, object.depth));
-    limits.back().sigma = BORDER_SIGMA * object.extent;
-  };
-  add(box.x == 0, -1.0, 0.0, 0.5);
-  add(box.y == 0, 0.0, -1.0, 0.5);
-  add(box.x + box.width == mask.width, 1.0, 0.0, mask.width - 0.5);
-  add(box.y + box.height == mask.height, 0.0, 1.0, mask.height - 0.5);
+  std::vector<ContourPoint> all = object.contour;
+  for (ContourPoint& p : all)
+    p.own = true;
+  const std::vector<SilhouetteLine> known = silhouetteLines(object.contour, lines);
+  for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
+    const bool is_known =
+        std::any_of(known.begin(), known.end(), [&](const SilhouetteLine& other) {
+          return other.direction == line.direction;
+        });
+    if (is_known)
+      continue;
+    limits.push_back(tangentPlane(object.camera, line, 1.0, object.depth));
+    limits.back().sigma = HIDDEN_SIGMA * object.extent;
+  }
 }
 
 } // namespace
@@ -92,7 +94,7 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
-  addBorders(*this, e.limits);
+  addHiddenEnds(*this, lines, e.limits);
   if (table) {
     e.up = table->normal;
     TangentPlane below;
