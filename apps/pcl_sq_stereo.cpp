@@ -22,6 +22,10 @@ using namespace pcl_sq::app;
 
 namespace {
 
+/** \brief Noise and dilation of an outline that was found: images are cut along edges
+ * that are blurred over about three pixels [px]. */
+constexpr double FOUND_OUTLINE = 1.5, FOUND_DILATION = 1.0;
+
 struct Outputs {
   std::string cloud, object_cloud, disparity, panel, mask, histogram;
 };
@@ -200,6 +204,7 @@ void tellNoise(const StereoResult& stereo, ViewOptions& view) {
 /** \brief Tells the model half what the images gave. The best mode looks at the whole
  * scene through the outline, the paper's chain at the object's points in their box. */
 void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
+  const bool painted = !model.mask.empty();
   model.roi.clear();
   model.mask.clear();
   const CameraIntrinsics& k = front.stereo.intrinsics;
@@ -211,6 +216,10 @@ void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
     return;
   }
   tellNoise(front.stereo, model.estimation.view);
+  if (!painted) { // what colours and depth find is no painted mask
+    model.estimation.view.mask_sigma = FOUND_OUTLINE;
+    model.estimation.view.mask_dilation = FOUND_DILATION;
+  }
   const cv::Mat& mask = front.segment.mask;
   if (mask.empty()) {
     model.roi = {front.rect.x, front.rect.y, front.rect.width, front.rect.height};
@@ -246,6 +255,8 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
 
 int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
   const bool best = model.estimation.decomposition == Decomposition::PARTS;
+  front_options.stereo.matcher =
+      front_options.matcher.value_or(best ? StereoMatcher::SGBM : StereoMatcher::BM);
   front_options.stereo.refine = front_options.refine.value_or(best);
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;

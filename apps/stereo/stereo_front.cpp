@@ -183,11 +183,13 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
                  "Distance of the cameras of a rectified pair [m], with --intrinsics "
                  "instead of --calib")
       ->check(positiveNumber(1000.0));
-  addChoice<StereoMatcher>(cli,
-                           "--matcher",
-                           o.stereo.matcher,
-                           {{"bm", StereoMatcher::BM}, {"sgbm", StereoMatcher::SGBM}},
-                           "Block matching or semi-global");
+  cli.add_option_function<std::string>(
+         "--matcher",
+         [&o](const std::string& name) {
+           o.matcher = name == "bm" ? StereoMatcher::BM : StereoMatcher::SGBM;
+         },
+         "Block matching or semi-global; default: bm in the paper's mode only")
+      ->check(oneOf({"bm", "sgbm"}));
   cli.add_option(
          "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto")
       ->check(wholeNumber(0, 51))

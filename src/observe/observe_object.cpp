@@ -56,8 +56,8 @@ namespace {
  * ends, over its size: most of it is seen, or nobody would have pointed at it. */
 constexpr double HIDDEN_SIGMA = 0.05;
 
-/** \brief Where the outline is not the object's own, at an occluder or the border of the
- * image, nobody knows how it goes on: a model ends about there unless evidence says
+/** \brief Where the outline is not the object's own, at an occluder or the border of
+ * the image, nobody knows how it goes on: a model ends about there unless evidence says
  * more. */
 void addHiddenEnds(const ObservedObject& object,
                    int lines,

@@ -32,8 +32,7 @@ constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sen
 enum class TableRelation { UNDER, ABOVE, FAR };
 
 double quantile(std::vector<double> values, double share) {
-  const auto place =
-      values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  const auto place = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }
@@ -118,15 +117,14 @@ double confidenceOf(const Observation& o,
     const Eigen::Vector3d ray = out.camera.ray(b.pixel);
     const double towards = plane.normal.dot(ray);
     const double there = -plane.height(out.camera.center) / towards;
-    if (!(towards < 0.0) ||
-        (out.camera.center + there * ray - foot).norm() > near)
+    if (!(towards < 0.0) || (out.camera.center + there * ray - foot).norm() > near)
       continue;
     const double height = plane.height(b.point);
     if (std::abs(height) <= around.distance) {
       ++on;
       const Eigen::Vector2d d = b.pixel - seen_foot;
       ++sides[std::abs(d.x()) > std::abs(d.y()) ? (d.x() < 0.0 ? 0 : 1)
-                                                 : (d.y() < 0.0 ? 2 : 3)];
+                                                : (d.y() < 0.0 ? 2 : 3)];
     } else if (height < 0.0)
       ++through;
     else
@@ -185,8 +183,7 @@ void findTable(Observation& o, const CellRect& box) {
 void checkTable(ObservedObject& observed) {
   if (!observed.table || observed.points.cols() == 0)
     return;
-  const TableRelation relation =
-      relationTo(*observed.table, observed, observed.extent);
+  const TableRelation relation = relationTo(*observed.table, observed, observed.extent);
   if (relation == TableRelation::ABOVE)
     observed.notes.push_back(
         "the object lies below the table plane, which is left out; check the table and "
