@@ -23,8 +23,8 @@ std::string pixels(const std::string& values) {
 TEST(Mask, OnesAreAsGoodAsWhite) {
   const Folder folder;
   for (const char object : {'\x01', '\xff', '\xc8'}) {
-    const cv::Mat mask = app::readMask(folder.write(
-        "mask.pgm", pixels(std::string{'\0', object, object, '\0'})));
+    const cv::Mat mask = app::readMask(
+        folder.write("mask.pgm", pixels(std::string{'\0', object, object, '\0'})));
     EXPECT_EQ(cv::countNonZero(mask), 2);
     EXPECT_EQ(mask.at<unsigned char>(0, 0), 0);
     EXPECT_EQ(mask.at<unsigned char>(0, 1), 255);
