@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private. The two ways from points to a model: estimate_parts.cpp, the default, and
-// estimate_prisms.cpp, the paper's. What they share is in object_surface_estimation.cpp.
+// estimate_prisms.cpp, the paper's. What they share is in
+// object_surface_estimation.cpp.
 #pragma once
 
 #include "pcl_sq/impl/object_surface_estimation.hpp"
