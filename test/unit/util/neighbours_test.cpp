@@ -57,8 +57,9 @@ TEST(PointGrid, FindsWhetherAnyPointIsInABox) {
     box.center = {
         random.uniform(-1.5, 1.5), random.uniform(-0.5, 0.5), random.uniform(-1, 4)};
     box.rotation = random.rotation();
-    box.half_sizes = {
-        random.uniform(0.01, 0.3), random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)};
+    box.half_sizes = {random.uniform(0.01, 0.3),
+                      random.uniform(0.01, 0.3),
+                      random.uniform(0.01, 0.3)};
     const double margin = random.uniform(0.0, 0.05);
     const bool any = std::any_of(points.begin(), points.end(), [&](const auto& p) {
       const Eigen::Vector3d local = box.rotation.transpose() * (p - box.center);
