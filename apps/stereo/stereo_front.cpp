@@ -71,14 +71,14 @@ Segment
 findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
-    const cv::Mat mask = readImage(o.mask, cv::IMREAD_GRAYSCALE);
+    const cv::Mat mask = readMask(o.mask);
     if (mask.cols != static_cast<int>(s.cloud->width) ||
         mask.rows != static_cast<int>(s.cloud->height))
       throw Failure("the mask and the image differ in size; give a mask of " +
                     std::to_string(s.cloud->width) + " x " +
                     std::to_string(s.cloud->height) +
                     " px, of the rectified left image.");
-    segment.mask = mask > 127;
+    segment.mask = mask;
     segment.rect = boundingRect(segment.mask);
     if (segment.rect.empty())
       throw Failure("the mask is empty; paint the object white.");

@@ -12,7 +12,8 @@
 namespace pcl_sq::detail {
 namespace {
 
-constexpr int LARGEST_CUT = 300; ///< longer side of the image that is cut as a whole [px]
+constexpr int LARGEST_CUT =
+    300; ///< longer side of the image that is cut as a whole [px]
 /** \brief Cost of a border between two pixels of one colour, in the unit of ln odds: a
  * pixel of its own has four, and is to be believed where depth and colour agree. */
 constexpr double TOGETHER = 2.0;
@@ -49,14 +50,13 @@ learnColors(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background
 
 /** \brief The cut of least cost. \param[in] odds CV_32F \param[in] open pixels whose
  * side is looked for; the others are on that of their odds */
-cv::Mat
-minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
+cv::Mat minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
   cv::Mat image;
   cv::GaussianBlur(bgr, image, {3, 3}, 0.0);
   const cv::Point beside[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
   const auto difference = [&image](const cv::Point& a, const cv::Point& b) {
-    const cv::Vec3d d = cv::Vec3d(image.at<cv::Vec3b>(a)) -
-                        cv::Vec3d(image.at<cv::Vec3b>(b));
+    const cv::Vec3d d =
+        cv::Vec3d(image.at<cv::Vec3b>(a)) - cv::Vec3d(image.at<cv::Vec3b>(b));
     return d.dot(d);
   };
   const cv::Rect all(0, 0, bgr.cols, bgr.rows);
@@ -110,9 +110,7 @@ minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
  * at full size. */
 cv::Mat cutInSteps(const cv::Mat& bgr, const cv::Mat& odds) {
   const int side = std::max(bgr.cols, bgr.rows);
-  const auto open = [](const cv::Mat& o) {
-    return cv::Mat(cv::abs(o) < 0.5F * SURE);
-  };
+  const auto open = [](const cv::Mat& o) { return cv::Mat(cv::abs(o) < 0.5F * SURE); };
   if (side <= LARGEST_CUT)
     return minimumCut(bgr, odds, open(odds));
   const double s = double(LARGEST_CUT) / side;
@@ -159,14 +157,14 @@ double separability(const cv::Mat& bgr, const cv::Mat& mask) {
 }
 
 cv::Mat cutJointly(const cv::Mat& bgr,
-                    const cv::Rect& box,
-                    const cv::Mat& depth_odds,
-                    int rounds) {
+                   const cv::Rect& box,
+                   const cv::Mat& depth_odds,
+                   int rounds) {
   // boxes are drawn by hand: just outside of them is hardly the object, not surely not
   const int dx = 1 + box.width / 40, dy = 1 + box.height / 40;
-  const cv::Rect drawn = cv::Rect(box.x - dx, box.y - dy, box.width + 2 * dx,
-                                  box.height + 2 * dy) &
-                         cv::Rect(0, 0, bgr.cols, bgr.rows);
+  const cv::Rect drawn =
+      cv::Rect(box.x - dx, box.y - dy, box.width + 2 * dx, box.height + 2 * dy) &
+      cv::Rect(0, 0, bgr.cols, bgr.rows);
   cv::Mat outside(bgr.size(), CV_8U, cv::Scalar(255)), beyond = outside.clone();
   outside(box).setTo(0);
   beyond(drawn).setTo(0);
