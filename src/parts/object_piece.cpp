@@ -90,7 +90,9 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
     if (!insideOnRay(body, o.camera.center, ray, inside))
       continue;
     TangentPlane limit;
-    limit.normal = body.rotation * -body.logGaugeJacobian(inside).head<3>();
+    limit.normal = body.isCut()
+                       ? body.gaugeGradient(inside)
+                       : body.rotation * -body.logGaugeJacobian(inside).head<3>();
     limit.normal -= limit.normal.dot(ray) * ray;
     if (!(limit.normal.norm() > 1e-9))
       continue;
@@ -290,7 +292,9 @@ void fitPiece(const PieceContext& context,
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
-        (assessed.fit.chosen.shape == ShapeClass::TAPERED ? TAPER : 0.0) +
+        (assessed.fit.chosen.shape == ShapeClass::TAPERED  ? TAPER
+         : assessed.fit.chosen.shape == ShapeClass::VESSEL ? VESSEL
+                                                           : 0.0) +
         assessed.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
         0.5 * double(evidence.silhouette.size());
     return assessed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
-#include "view_fit/plane_rows.h"
+#include "view_fit/plane_cost.h"
 #include "view_fit/shape_spaces.h"
 #include "view_fit/view_problem.h"
 

@@ -3,7 +3,7 @@
 
 #include "pcl_sq/triangle_mesh.h"
 #include "solver/levenberg_marquardt.h"
-#include "view_fit/plane_rows.h"
+#include "view_fit/plane_cost.h"
 #include "view_fit/plane_sums.h"
 #include "view_scene.h"
 

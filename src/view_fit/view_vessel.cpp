@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The family of open vessels: bowls, cups, pots, plates.
+#include "view_fit/shape_spaces.h"
+#include "view_fit/vessel_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Cost per observation from which on no family of solids is near the body: of a
+ * vessel, the points of the inside lie far from any. */
+constexpr double MISFIT = 1.3;
+constexpr double WIDE = 0.03; ///< sigma of the search, in the points' deviation
+constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
+constexpr std::size_t KEPT = 2; ///< starts that are refined
+constexpr double CUT = 0.02;    ///< share of the points beyond an extent's end
+
+/** \brief Profiles of household vessels: cup, pot or plate, bowl. */
+struct Kind {
+  double epsilon1, taper, rim;
+};
+constexpr std::array<Kind, 4> KINDS = {
+    {{0.15, 0.05, 0.9}, {0.2, 0.3, 0.9}, {0.5, 0.2, 0.6}, {1.0, 0.0, 0.05}}};
+
+struct Interval {
+  double low, high;
+  double middle() const { return 0.5 * (low + high); }
+  double half() const { return 0.5 * (high - low); }
+};
+
+Interval extentAlong(const UnitPoints& points, const Eigen::Vector3d& axis) {
+  std::vector<double> along(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    along[i] = axis.dot(points[i].cast<double>());
+  const auto cut = static_cast<std::ptrdiff_t>(CUT * double(along.size()));
+  std::nth_element(along.begin(), along.begin() + cut, along.end());
+  const double low = along[std::size_t(cut)];
+  std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+  return {low, *(along.end() - 1 - cut)};
+}
+
+/** \brief Vessels around the points with a given axis, from the bottom up. */
+std::vector<Superquadric> vesselStarts(const ViewProblem& p, const Eigen::Vector3d& up) {
+  Superquadric s;
+  s.rotation.col(2) = up;
+  s.rotation.col(0) =
+      p.hasView() ? up.cross(p.view()).stableNormalized() : up.unitOrthogonal();
+  if (!(s.rotation.col(0).norm() > 0.5)) // seen along the axis
+    s.rotation.col(0) = up.unitOrthogonal();
+  s.rotation.col(1) = up.cross(s.rotation.col(0));
+  // from the near outside to the far inside, and from side to side
+  const Interval across = extentAlong(p.medium(), s.rotation.col(0)),
+                 deep = extentAlong(p.medium(), s.rotation.col(1));
+  Interval high = extentAlong(p.medium(), up);
+  for (const TangentPlane& plane : p.tangents())
+    if (plane.normal.dot(up) < -UPRIGHT)
+      high.low = std::min(-plane.offset, high.high - 1e-3);
+  const double radius = std::max(across.half(), 1e-3);
+  std::vector<Superquadric> starts;
+  for (const Kind& kind : KINDS) {
+    s.epsilon1 = kind.epsilon1;
+    s.epsilon2 = 1.0;
+    s.kx = s.ky = kind.taper;
+    s.rim = kind.rim;
+    const double growth =
+        (1.0 + kind.taper * kind.rim) *
+        std::pow(1.0 - std::pow(kind.rim, 2.0 / kind.epsilon1), 0.5 * kind.epsilon1);
+    const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
+    s.semi_axes = {radius / growth, radius / growth, a3};
+    s.wall = std::min(0.07 * radius, 0.3 * a3);
+    s.center = across.middle() * s.rotation.col(0) +
+               deep.middle() * s.rotation.col(1) + (high.low + a3) * up;
+    starts.push_back(s);
+  }
+  return starts;
+}
+
+struct Vessel {
+  Superquadric model;
+  double cost = 1e300; ///< over sigma^2
+  bool upright = false;
+};
+
+class VesselFamily {
+public:
+  VesselFamily(const ViewProblem& problem, const UnitPoints& points, double sigma)
+      : least_squares_(problem, points, sigma, problem.planes(sigma, points)) {}
+
+  Vessel fit(const Vessel& start, int iterations) const {
+    LmLimits limits;
+    limits.max_iterations = iterations;
+    limits.cost_tolerance = 1e-5;
+    auto found = minimiseSquares(
+        least_squares_, start.model, vesselBasis(start.upright), limits);
+    found.model.rotation =
+        Eigen::Quaterniond(found.model.rotation).normalized().toRotationMatrix();
+    const double unit = least_squares_.planes().unit;
+    return {found.model, found.equations.cost / (unit * unit), start.upright};
+  }
+
+private:
+  VesselProblem least_squares_;
+};
+
+ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
+  ShapeCandidate c;
+  c.shape = ShapeClass::VESSEL;
+  c.before = ShapeClass::ROTATIONAL;
+  c.upright = v.upright;
+  c.parameters = static_cast<int>(vesselBasis(v.upright).cols());
+  c.cost = v.cost;
+  c.bic = c.cost + c.parameters * std::log(problem.observations()) + VESSEL;
+  c.model = v.model;
+  return c;
+}
+
+bool cheaper(const Vessel& a, const Vessel& b) {
+  return a.cost < b.cost;
+}
+
+} // namespace
+
+std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
+                                        double sigma,
+                                        const std::vector<ShapeCandidate>& candidates) {
+  const ShapeCandidate* best = nullptr;
+  for (const ShapeCandidate& c : candidates)
+    if (!best || c.cost < best->cost)
+      best = &c;
+  if (!best || best->cost < MISFIT * problem.observations())
+    return std::nullopt;
+  std::vector<Eigen::Vector3d> axes;
+  if (problem.hasUp())
+    axes.push_back(problem.up());
+  else
+    for (int k = 0; k < 3; ++k)
+      for (const double sign : {1.0, -1.0})
+        axes.emplace_back(sign * best->model.rotation.col(k));
+  const VesselFamily rough(
+      problem, problem.coarse(), std::max(WIDE, 2.0 * problem.noise()));
+  std::vector<Vessel> found;
+  for (const Eigen::Vector3d& axis : axes)
+    for (const Superquadric& start : vesselStarts(problem, axis))
+      found.push_back(rough.fit({start, 0.0, problem.hasUp()}, SEARCH_ITERATIONS));
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), KEPT));
+  const VesselFamily thorough(problem, problem.medium(), sigma);
+  for (Vessel& v : found)
+    v = thorough.fit(v, ITERATIONS);
+  return candidateOf(*std::min_element(found.begin(), found.end(), cheaper), problem);
+}
+
+void fitVesselAllPoints(const ViewProblem& problem,
+                        double sigma,
+                        ShapeCandidate& chosen) {
+  const Vessel fitted = VesselFamily(problem, problem.all(), sigma)
+                            .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
+  chosen.bic += fitted.cost - chosen.cost;
+  chosen.cost = fitted.cost;
+  chosen.model = fitted.model;
+}
+
+} // namespace pcl_sq::detail
