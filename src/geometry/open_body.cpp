@@ -13,7 +13,8 @@ namespace detail {
 namespace {
 
 constexpr int STEPS = 40;      ///< of a meridian's curve
-constexpr int REFINEMENTS = 3; ///< Gauss-Newton steps from the nearest chord
+constexpr int REFINEMENTS = 26; ///< golden sections about the nearest chord
+constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
 
 /** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
 double latitudeOf(const Superquadric& s, double height) {
@@ -23,13 +24,10 @@ double latitudeOf(const Superquadric& s, double height) {
 
 double toSegment(const Eigen::Vector2d& p,
                  const Eigen::Vector2d& a,
-                 const Eigen::Vector2d& b,
-                 double* share = nullptr) {
+                 const Eigen::Vector2d& b) {
   const Eigen::Vector2d side = b - a;
   const double length = std::max(side.squaredNorm(), 1e-300);
   const double t = std::clamp((p - a).dot(side) / length, 0.0, 1.0);
-  if (share)
-    *share = t;
   return (p - a - t * side).norm();
 }
 
@@ -135,57 +133,86 @@ Meridian::Meridian(const Superquadric& s, const Eigen::Vector2d& direction)
   polygon_.emplace_back(0.0, polygon_.back().y());
 }
 
-Eigen::Vector2d Meridian::at(double latitude, double inset) const {
-  const double sine = std::sin(latitude);
-  const double height =
-      std::copysign(std::pow(std::abs(sine), s_.epsilon1), sine);
-  const double scale = std::pow(std::max(std::cos(latitude), 0.0), s_.epsilon1);
+Eigen::Vector2d Meridian::at(double s, double inset) const {
+  const double larger = std::max(std::abs(s), 1.0 - std::abs(s));
+  const double ratio = std::min(std::abs(s), 1.0 - std::abs(s)) / larger;
+  const double norm =
+      larger * std::pow(1.0 + std::pow(ratio, 2.0 / s_.epsilon1), 0.5 * s_.epsilon1);
+  const double height = s / norm, scale = (1.0 - std::abs(s)) / norm;
   const double a = s_.semi_axes.x() * (1.0 + s_.kx * height) * scale - inset;
   const double b = s_.semi_axes.y() * (1.0 + s_.ky * height) * scale - inset;
   if (!(a > 0.0 && b > 0.0))
     return {0.0, height * s_.semi_axes.z()};
   const double u = std::abs(direction_.x()) / a, v = std::abs(direction_.y()) / b;
-  const double larger = std::max(u, v), smaller = std::min(u, v);
-  const double norm =
-      larger *
-      std::pow(1.0 + std::pow(smaller / larger, 2.0 / s_.epsilon2), 0.5 * s_.epsilon2);
-  return {1.0 / norm, height * s_.semi_axes.z()};
+  const double most = std::max(u, v), least = std::min(u, v);
+  const double reach =
+      most *
+      std::pow(1.0 + std::pow(least / most, 2.0 / s_.epsilon2), 0.5 * s_.epsilon2);
+  return {1.0 / reach, height * s_.semi_axes.z()};
 }
 
 void Meridian::addCurve(double inset, double low, double high) {
-  Curve c{inset, latitudeOf(s_, low), latitudeOf(s_, high), {}};
-  for (int i = 0; i <= STEPS; ++i)
-    c.points.push_back(at(c.begin + (c.end - c.begin) * i / STEPS, inset));
+  Curve c;
+  c.inset = inset;
+  const double begin = latitudeOf(s_, low), end = latitudeOf(s_, high);
+  for (int i = 0; i <= STEPS; ++i) {
+    const double eta = begin + (end - begin) * i / STEPS;
+    const double height = std::pow(std::abs(std::sin(eta)), s_.epsilon1);
+    const double scale = std::pow(std::max(std::cos(eta), 0.0), s_.epsilon1);
+    const bool pole = low == -1.0 && i == 0; // where a cosine is not quite zero
+    c.places.push_back(pole ? -1.0 : std::copysign(height / (height + scale), eta));
+    c.points.push_back(at(c.places.back(), inset));
+  }
+  for (std::size_t i = 0; i < STEPS; ++i) {
+    double miss = 0.0;
+    for (const double share : {0.1, 0.5, 0.9})
+      miss = std::max(
+          miss,
+          toSegment(at((1.0 - share) * c.places[i] + share * c.places[i + 1], inset),
+                    c.points[i],
+                    c.points[i + 1]));
+    c.straight.push_back(miss < STRAIGHT * s_.semi_axes.maxCoeff());
+  }
   curves_.push_back(std::move(c));
 }
 
 double Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p) const {
-  double nearest = 1e300, latitude = c.begin;
-  const double step = (c.end - c.begin) / STEPS;
-  for (int i = 0; i < STEPS; ++i) {
-    double share;
-    const double d = toSegment(p, c.points[i], c.points[i + 1], &share);
+  double nearest = 1e300;
+  std::size_t chord = 0;
+  for (std::size_t i = 0; i < STEPS; ++i) {
+    const double d = toSegment(p, c.points[i], c.points[i + 1]);
     if (d < nearest) {
       nearest = d;
-      latitude = c.begin + (i + share) * step;
+      chord = i;
     }
   }
-  double best = (p - at(latitude, c.inset)).norm();
-  for (int i = 0; i < REFINEMENTS; ++i) {
-    const double h = 1e-4 * std::abs(step);
-    const double left = std::max(latitude - h, c.begin),
-                 right = std::min(latitude + h, c.end);
-    const Eigen::Vector2d q = at(latitude, c.inset);
-    const Eigen::Vector2d slope =
-        (at(right, c.inset) - at(left, c.inset)) / (right - left);
-    if (!(slope.squaredNorm() > 0.0))
-      break;
-    latitude = std::clamp(latitude + (p - q).dot(slope) / slope.squaredNorm(),
-                          std::max(latitude - step, c.begin),
-                          std::min(latitude + step, c.end));
-    best = std::min(best, (p - at(latitude, c.inset)).norm());
-  }
-  return best;
+  if (c.straight[chord])
+    return nearest;
+  constexpr double GOLDEN = 0.6180339887498949;
+  const auto square = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
+  double low = c.places[chord], high = c.places[chord + 1];
+  if (chord > 0) // the curve's foot may lie beside the chord's
+    low = 0.5 * (low + c.places[chord - 1]);
+  if (chord + 2 < c.places.size())
+    high = 0.5 * (high + c.places[chord + 2]);
+  double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
+  double at_left = square(left), at_right = square(right);
+  for (int i = 0; i < REFINEMENTS; ++i)
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      at_left = square(left = high - GOLDEN * (high - low));
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      at_right = square(right = low + GOLDEN * (high - low));
+    }
+  return std::sqrt(std::min({at_left,
+                             at_right,
+                             (p - c.points[chord]).squaredNorm(),
+                             (p - c.points[chord + 1]).squaredNorm()}));
 }
 
 double Meridian::distance(double rho, double z) const {

@@ -49,12 +49,16 @@ public:
   double distance(double rho, double z) const;
 
 private:
-  /** \brief A curve of the outline at equal steps of the latitude. */
+  /** \brief A curve of the outline at equal steps of the latitude, where corners are
+   * dense; its places are points (1 - |s|, s) of a line, scaled onto the superellipse,
+   * for small exponents make powers of the latitude steep. */
   struct Curve {
-    double inset, begin, end;            ///< latitudes [rad]
+    double inset = 0.0;
+    std::vector<double> places;          ///< s
     std::vector<Eigen::Vector2d> points; ///< rho, z
+    std::vector<bool> straight;          ///< whether the chord is as good as the curve
   };
-  Eigen::Vector2d at(double latitude, double inset) const;
+  Eigen::Vector2d at(double s, double inset) const;
   void addCurve(double inset, double low, double high);
   double distanceTo(const Curve& curve, const Eigen::Vector2d& p) const;
 

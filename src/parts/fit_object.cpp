@@ -130,6 +130,18 @@ Split bestSplit(const PieceContext& context,
                 const Piece& piece,
                 const Superquadric* axis,
                 double limit) {
+  if (const auto handle = handleCut(context, piece)) {
+    Split s;
+    s.cut = *handle;
+    s.first = cutPiece(context, piece, handle->flipped());
+    s.second = cutPiece(context, piece, *handle);
+    if (s.first.points.empty() || s.second.points.empty())
+      return s;
+    fitPiece(context, s.first, Effort::FULL);
+    fitPiece(context, s.second, Effort::FULL);
+    s.score = s.first.score + s.second.score;
+    return s;
+  }
   const std::vector<Cut> cuts = proposeCuts(context, piece);
   std::vector<Split> splits(cuts.size());
   const unsigned int threads = context.options.fit.threads;
@@ -218,7 +230,8 @@ void splitView(const PieceContext& context,
     const std::size_t main = largestOfRevolution(pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
-      const bool good = piece.misfit < GOOD_FIT * observations(context, piece);
+      const bool good = piece.misfit < GOOD_FIT * observations(context, piece) &&
+                        !handleCut(context, piece);
       if (piece.final || (good && !exactly))
         continue;
       Split s =

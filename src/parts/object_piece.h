@@ -56,6 +56,10 @@ Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 
+/** \brief The plane through the camera that touches a vessel on the side on which points
+ * stand off it; none where too few do. */
+std::optional<Cut> handleCut(const PieceContext& context, const Piece& piece);
+
 enum class Effort {
   QUICK, ///< general shape, few starts
   START, ///< general shape, all starts: where AGAIN goes on from

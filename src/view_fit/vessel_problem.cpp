@@ -38,7 +38,8 @@ Places placesOf(const Superquadric& s) {
   const auto at = [&](double eta, double inset) {
     const double sine = std::sin(eta);
     const double h = std::copysign(std::pow(std::abs(sine), s.epsilon1), sine);
-    const double g = std::pow(std::max(std::cos(eta), 0.0), s.epsilon1);
+    const double cosine = std::cos(eta); // at the pole not quite zero
+    const double g = cosine > 1e-12 ? std::pow(cosine, s.epsilon1) : 0.0;
     return Eigen::Vector2d(std::max(a * (1.0 + s.kx * h) * g - inset, 0.0), a3 * h);
   };
   const double top = latitude(s.rim, s.epsilon1);

@@ -98,10 +98,11 @@ void fitTaperAllPoints(const ViewProblem& problem,
                        double sigma,
                        ShapeCandidate& chosen);
 
-/** \brief The best open vessel, if no family of solids is near the points. */
+/** \brief The best open vessel, if no solid is near the points or the best one hides
+ * some of them. \param[in,out] candidates all solids; those pay for what they hide */
 std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
                                         double sigma,
-                                        const std::vector<ShapeCandidate>& candidates);
+                                        std::vector<ShapeCandidate>& candidates);
 
 /** \brief Last iterations of a vessel with all points. */
 void fitVesselAllPoints(const ViewProblem& problem,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The family of open vessels: bowls, cups, pots, plates.
+#include "solver/gaussian_uniform.h"
 #include "view_fit/shape_spaces.h"
 #include "view_fit/vessel_problem.h"
 
@@ -13,7 +14,10 @@ namespace {
 /** \brief Cost per observation from which on no family of solids is near the body: of a
  * vessel, the points of the inside lie far from any. */
 constexpr double MISFIT = 1.3;
-constexpr double WIDE = 0.03; ///< sigma of the search, in the points' deviation
+/** \brief Share of the points that a solid hides, from which on they are no outliers. */
+constexpr double SEEN_BEHIND = 0.02;
+constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behind
+constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
 constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
 constexpr std::size_t KEPT = 2; ///< starts that are refined
 constexpr double CUT = 0.02;    ///< share of the points beyond an extent's end
@@ -117,6 +121,46 @@ ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
   return c;
 }
 
+/** \brief What a solid cannot explain: points behind the surface that the camera sees. */
+struct Hidden {
+  double share = 0.0; ///< of the points
+  double cost = 0.0;  ///< by which they are no better than outliers
+};
+
+Hidden hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body) {
+  Hidden hidden;
+  if (!problem.eye())
+    return hidden;
+  const UnitPoints& points = problem.medium();
+  UnitPoints nearer;
+  nearer.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = points[i].cast<double>();
+    const Eigen::Vector3f q =
+        (p + BEHIND * sigma * (*problem.eye() - p).normalized()).cast<float>();
+    nearer.add(q.x(), q.y(), q.z());
+  }
+  std::vector<float> there(points.size() + kernels::BLOCK), here(there.size());
+  residualsOf(body, nearer, kernels::Residual::FOOT_POINT, there.data());
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, here.data());
+  const LmOptions limits = problem.limits(sigma);
+  const GaussianUniform density{sigma, limits.outlier};
+  const float* precision = points.view().precision;
+  double cost = 0.0, count = 0.0, share;
+  const double outlier = density.cost(1e6 * sigma * sigma, share);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(double(there[i]) < -sigma))
+      continue;
+    const double q = precision ? double(precision[i]) : 1.0;
+    count += 1.0;
+    cost += outlier - density.cost(q * double(here[i]) * double(here[i]), share);
+  }
+  const double unit = problem.planes(sigma, points).unit;
+  hidden.share = count / double(points.size());
+  hidden.cost = cost / (unit * unit);
+  return hidden;
+}
+
 bool cheaper(const Vessel& a, const Vessel& b) {
   return a.cost < b.cost;
 }
@@ -125,13 +169,22 @@ bool cheaper(const Vessel& a, const Vessel& b) {
 
 std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
                                         double sigma,
-                                        const std::vector<ShapeCandidate>& candidates) {
+                                        std::vector<ShapeCandidate>& candidates) {
   const ShapeCandidate* best = nullptr;
   for (const ShapeCandidate& c : candidates)
     if (!best || c.cost < best->cost)
       best = &c;
-  if (!best || best->cost < MISFIT * problem.observations())
+  if (!best)
     return std::nullopt;
+  const bool behind = hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND;
+  if (!behind && best->cost < MISFIT * problem.observations())
+    return std::nullopt;
+  if (behind)
+    for (ShapeCandidate& c : candidates) {
+      const double cost = hiddenPoints(problem, sigma, c.model).cost;
+      c.cost += cost;
+      c.bic += cost;
+    }
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
     axes.push_back(problem.up());
@@ -150,6 +203,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   const VesselFamily thorough(problem, problem.medium(), sigma);
   for (Vessel& v : found)
     v = thorough.fit(v, ITERATIONS);
+  if(getenv("VDBG")) for(const Vessel&v:found) fprintf(stderr,"  vessel cost %.0f a %.1f %.1f e %.2f k %.2f c %.2f w %.1f\n",v.cost,v.model.semi_axes.x()*1e3*problem.frame().scale,v.model.semi_axes.z()*1e3*problem.frame().scale,v.model.epsilon1,v.model.kx,v.model.rim,v.model.wall*1e3*problem.frame().scale);
   return candidateOf(*std::min_element(found.begin(), found.end(), cheaper), problem);
 }
 
