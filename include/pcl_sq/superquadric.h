@@ -44,8 +44,8 @@ using SuperquadricCoefficients = Eigen::Matrix<double, 11, 1>;
  * and need not be convex; turned by 180 degrees about x it has the opposite taper.
  *
  * The body may be cut at a rim, the plane z = rim a3, above which there is nothing; and
- * it may be hollow, a bowl or a mug: open at the rim, the hollow's section is the body's
- * with both semi-axes shorter by the wall, its floor the wall's thickness above
+ * it may be hollow, a bowl or a mug: open at the rim, the hollow's section is the
+ * body's with both semi-axes shorter by the wall, its floor the wall's thickness above
  * z = -a3. The gauge, the support function and volume() are those of the body filled up
  * to the rim, which is what collides and what an outline shows; closestPoint() and the
  * distances are those of the material's surface, inside and floor included.
@@ -66,8 +66,8 @@ struct PCL_SQ_EXPORTS Superquadric {
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
   double epsilon1 = 1.0; ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
   double epsilon2 = 1.0; ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
-  double kx = 0.0; ///< taper: relative growth of the section's x from z = 0 to z = a3
-  double ky = 0.0; ///< and of its y; both in [-MAX_TAPER, MAX_TAPER]
+  double kx = 0.0;  ///< taper: relative growth of the section's x from z = 0 to z = a3
+  double ky = 0.0;  ///< and of its y; both in [-MAX_TAPER, MAX_TAPER]
   double rim = 1.0; ///< height of the rim over a3, in (-1, 1]; 1: the body is not cut
   /** \brief Thickness of the wall of a hollow body, open at its rim [m]; 0: solid. */
   double wall = 0.0;

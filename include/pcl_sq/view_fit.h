@@ -86,7 +86,8 @@ struct ViewFit {
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
 
-  /** \brief The best model with neither taper nor rim: where another search goes on from.
+  /** \brief The best model with neither taper nor rim: where another search goes on
+   * from.
    */
   const Superquadric& straight() const;
 };

@@ -53,9 +53,9 @@ struct Arc {
   double begin = 0.0, end = 1.0;
 };
 
-/** \brief The arc of the meridian between two heights over a3 in the half of the body on
- * one side of z = 0, where heights are counted from there; empty (begin > end) where it
- * does not reach. */
+/** \brief The arc of the meridian between two heights over a3 in the half of the body
+ * on one side of z = 0, where heights are counted from there; empty (begin > end) where
+ * it does not reach. */
 Arc arcBetween(const Superquadric& s, double low, double high, double side) {
   const double from = side > 0.0 ? low : -high, to = side > 0.0 ? high : -low;
   const auto at = [&](double height) {
@@ -68,8 +68,8 @@ Arc arcBetween(const Superquadric& s, double low, double high, double side) {
   return {at(std::clamp(from, 0.0, 1.0)), at(std::min(to, 1.0))};
 }
 
-/** \brief The point of a body's outside, or of the same shrunk by an inset, nearest to a
- * place with no negative coordinate, on an arc of the half of the body on one side of
+/** \brief The point of a body's outside, or of the same shrunk by an inset, nearest to
+ * a place with no negative coordinate, on an arc of the half of the body on one side of
  * z = 0, mirrored to z >= 0. */
 Eigen::Vector3d closestInHalf(const Superquadric& body,
                               const Eigen::Vector3d& place,
@@ -88,8 +88,7 @@ Eigen::Vector3d closestInHalf(const Superquadric& body,
       const Eigen::Vector2d p = sides.cwiseMax(0.0).cwiseProduct(section);
       return Eigen::Vector3d(p.x(), p.y(), profile[1] * body.semi_axes.z());
     }
-    return Eigen::Vector3d(
-               profile[0] * section[0], profile[0] * section[1], profile[1])
+    return Eigen::Vector3d(profile[0] * section[0], profile[0] * section[1], profile[1])
         .cwiseProduct(body.semi_axes)
         .cwiseProduct(growth)
         .eval();

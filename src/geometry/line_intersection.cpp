@@ -151,14 +151,14 @@ bool intersectWhole(const Superquadric& s,
   return true;
 }
 
-/** \brief Leaves what of an interval lies below the rim. \return whether anything does */
+/** \brief Leaves what of an interval lies below the rim. \return whether anything does
+ */
 bool clipAtRim(const Superquadric& s,
                const Eigen::Vector3d& origin,
                const Eigen::Vector3d& direction,
                LineInterval& interval) {
   const Eigen::Vector3d axis = s.rotation.col(2);
-  const double above =
-      axis.dot(origin - s.center) - s.rimHeight() * s.semi_axes.z();
+  const double above = axis.dot(origin - s.center) - s.rimHeight() * s.semi_axes.z();
   const double rise = axis.dot(direction);
   if (rise == 0.0)
     return above <= 0.0;

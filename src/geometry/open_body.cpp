@@ -12,8 +12,8 @@ namespace detail {
 
 namespace {
 
-constexpr int STEPS = 40;      ///< of a meridian's curve
-constexpr int REFINEMENTS = 26; ///< golden sections about the nearest chord
+constexpr int STEPS = 40;         ///< of a meridian's curve
+constexpr int REFINEMENTS = 26;   ///< golden sections about the nearest chord
 constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
 
 /** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
@@ -145,9 +145,8 @@ Eigen::Vector2d Meridian::at(double s, double inset) const {
     return {0.0, height * s_.semi_axes.z()};
   const double u = std::abs(direction_.x()) / a, v = std::abs(direction_.y()) / b;
   const double most = std::max(u, v), least = std::min(u, v);
-  const double reach =
-      most *
-      std::pow(1.0 + std::pow(least / most, 2.0 / s_.epsilon2), 0.5 * s_.epsilon2);
+  const double reach = most * std::pow(1.0 + std::pow(least / most, 2.0 / s_.epsilon2),
+                                       0.5 * s_.epsilon2);
   return {1.0 / reach, height * s_.semi_axes.z()};
 }
 
@@ -268,7 +267,8 @@ Eigen::Vector3d onRing(const Ring& ring, double epsilon2, double angle) {
   const double larger = std::max(std::abs(x), std::abs(y)),
                smaller = std::min(std::abs(x), std::abs(y));
   const double norm =
-      larger * std::pow(1.0 + std::pow(smaller / larger, 2.0 / epsilon2), 0.5 * epsilon2);
+      larger *
+      std::pow(1.0 + std::pow(smaller / larger, 2.0 / epsilon2), 0.5 * epsilon2);
   return {ring.section.a * x / norm, ring.section.b * y / norm, ring.z};
 }
 
@@ -307,10 +307,8 @@ bool Superquadric::inHollow(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
   const double height = local.z() / semi_axes.z();
   return height > detail::floorHeight(*this) && height < rimHeight() &&
-         detail::contains(detail::sectionAt(*this, height, wall),
-                          epsilon2,
-                          local.x(),
-                          local.y());
+         detail::contains(
+             detail::sectionAt(*this, height, wall), epsilon2, local.x(), local.y());
 }
 
 } // namespace pcl_sq

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. Bodies with a rim, hollow or not: their sections, their meridian, the nearest
-// place of their surface.
+// Private. Bodies with a rim, hollow or not: their sections, their meridian, the
+// nearest place of their surface.
 #pragma once
 
 #include "geometry/taper.h"
@@ -64,7 +64,7 @@ private:
 
   const Superquadric& s_;
   Eigen::Vector2d direction_;
-  std::vector<Curve> curves_;             ///< outside, inside
+  std::vector<Curve> curves_;            ///< outside, inside
   std::vector<Eigen::Vector2d> polygon_; ///< of the material, the axis its last side
 };
 
@@ -82,8 +82,7 @@ PCL_SQ_EXPORTS std::vector<std::vector<Ring>> ringsOf(const Superquadric& s, int
 
 /** \brief A point on a ring; it lies in the direction of the angle where the section is
  * as wide as deep. */
-PCL_SQ_EXPORTS Eigen::Vector3d
-onRing(const Ring& ring, double epsilon2, double angle);
+PCL_SQ_EXPORTS Eigen::Vector3d onRing(const Ring& ring, double epsilon2, double angle);
 
 /** \brief Whether a solid with a rim is one of revolution. */
 inline bool isRound(const Superquadric& s) {
@@ -94,8 +93,8 @@ inline bool isRound(const Superquadric& s) {
  * rim, see Meridian. */
 double meridianDistance(const Superquadric& s, const Eigen::Vector3d& local);
 
-/** \brief residualsOf() for a body with a rim. A gauge less one is a distance over one to
- * the centre; of a hollow body that would say nothing of its inside, and it is the
+/** \brief residualsOf() for a body with a rim. A gauge less one is a distance over one
+ * to the centre; of a hollow body that would say nothing of its inside, and it is the
  * distance over the geometric mean of the semi-axes. */
 void openResiduals(const Superquadric& s,
                    const UnitPoints& points,

@@ -109,9 +109,8 @@ Superquadric::insideOutsideGradient(const Eigen::Vector3d& point) const {
 
 double Superquadric::gauge(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
-  const double whole = local.isZero(0.0)
-                           ? 0.0
-                           : std::exp(detail::placeOf(*this, local).gauge.value);
+  const double whole =
+      local.isZero(0.0) ? 0.0 : std::exp(detail::placeOf(*this, local).gauge.value);
   return isCut() ? std::max(whole, aboveRim(*this, local)) : whole;
 }
 

@@ -15,15 +15,15 @@ constexpr double MAX_SECTION = 1.98;
 constexpr int SLICES = 16;      ///< of the search, equal angles from pole to pole
 constexpr int REFINEMENTS = 24; ///< golden sections of the best two slices
 
-/** \brief The body cut at a latitude eta, up to that of its rim: z = a3 sin^e1(eta), the section scaled by
- * cos^e1(eta) and the taper. In a direction n of the own frame,
+/** \brief The body cut at a latitude eta, up to that of its rim: z = a3 sin^e1(eta),
+ * the section scaled by cos^e1(eta) and the taper. In a direction n of the own frame,
  * h = max over eta of n_z z + cos^e1(eta) |(n_x a1 f_x, n_y a2 f_y)|_p with
  * p = 2 / (2 - e2), the dual norm of the section's |.|_(2 / e2). */
 class Slices {
 public:
   Slices(const Superquadric& s, const Eigen::Vector3d& local)
-      : s_(s), n_(local), e2_(std::min(s.epsilon2, MAX_SECTION)),
-        p_(2.0 / (2.0 - e2_)), top_(s.isCut() ? latitudeOf(s) : M_PI_2) {}
+      : s_(s), n_(local), e2_(std::min(s.epsilon2, MAX_SECTION)), p_(2.0 / (2.0 - e2_)),
+        top_(s.isCut() ? latitudeOf(s) : M_PI_2) {}
 
   struct Slice {
     double sine, cosine; ///< of eta

@@ -51,8 +51,8 @@ Primitive closestPrimitive(const Superquadric& part) {
   const int layers = !part.isPlain() ? 2 * CELLS : CELLS;
   for (int i = 0; i < CELLS * CELLS * layers; ++i) {
     const Eigen::Vector3d cell(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS);
-    // all shapes are symmetric, but a tapered part, or one with a rim, across z: an eighth of the box is
-    // enough, or a quarter
+    // all shapes are symmetric, but a tapered part, or one with a rim, across z: an
+    // eighth of the box is enough, or a quarter
     Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
     if (p.z() > reach.z())
       p.z() = reach.z() - p.z();

@@ -25,10 +25,9 @@ std::ostream& operator<<(std::ostream& stream, const Superquadric& superquadric)
                         y = superquadric.rotation.col(1),
                         z = superquadric.rotation.col(2);
   stream << "superquadric at " << Triple{superquadric.center} << " m, semi-axes "
-                << Triple{superquadric.semi_axes} << " m, exponents "
-                << superquadric.epsilon1 << " and " << superquadric.epsilon2
-                << ", axes x " << Triple{x} << ", y " << Triple{y} << ", z "
-                << Triple{z};
+         << Triple{superquadric.semi_axes} << " m, exponents " << superquadric.epsilon1
+         << " and " << superquadric.epsilon2 << ", axes x " << Triple{x} << ", y "
+         << Triple{y} << ", z " << Triple{z};
   if (superquadric.isTapered())
     stream << ", taper " << superquadric.kx << " and " << superquadric.ky;
   if (superquadric.isCut())

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a body with a rim: rings from the pole below over the rim to the floor.
-#include "geometry/open_body.h"
+// The surface of a body with a rim: rings from the pole below over the rim to the
+// floor.
 #include "mesh/open_mesh.h"
+#include "geometry/open_body.h"
 
 namespace pcl_sq::detail {
 

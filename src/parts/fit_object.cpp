@@ -130,18 +130,6 @@ Split bestSplit(const PieceContext& context,
                 const Piece& piece,
                 const Superquadric* axis,
                 double limit) {
-  if (const auto handle = handleCut(context, piece)) {
-    Split s;
-    s.cut = *handle;
-    s.first = cutPiece(context, piece, handle->flipped());
-    s.second = cutPiece(context, piece, *handle);
-    if (s.first.points.empty() || s.second.points.empty())
-      return s;
-    fitPiece(context, s.first, Effort::FULL);
-    fitPiece(context, s.second, Effort::FULL);
-    s.score = s.first.score + s.second.score;
-    return s;
-  }
   const std::vector<Cut> cuts = proposeCuts(context, piece);
   std::vector<Split> splits(cuts.size());
   const unsigned int threads = context.options.fit.threads;
@@ -154,6 +142,11 @@ Split bestSplit(const PieceContext& context,
     fitInFull(context, splits[i], axis);
   });
   Split best;
+  if (standsOff(context, piece, best.first, best.second)) {
+    fitPiece(context, best.first, Effort::FULL);
+    fitPiece(context, best.second, Effort::FULL);
+    best.score = best.first.score + best.second.score;
+  }
   for (Split& s : splits)
     if (s.score < best.score && (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
@@ -230,8 +223,9 @@ void splitView(const PieceContext& context,
     const std::size_t main = largestOfRevolution(pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
+      Piece body, handle;
       const bool good = piece.misfit < GOOD_FIT * observations(context, piece) &&
-                        !handleCut(context, piece);
+                        !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
       Split s =

@@ -241,6 +241,7 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
     }
   }
   part.ends = piece.ends;
+  part.stands = piece.stands;
   TangentPlane end;
   end.normal = -cut.normal;
   end.offset = -cut.offset;
@@ -278,7 +279,7 @@ void fitPiece(const PieceContext& context,
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
-                 reachesTable(context, points, piece.ends.empty()));
+                 piece.stands && reachesTable(context, points, piece.ends.empty()));
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(
@@ -327,6 +328,7 @@ bool coversFreeSpace(const Piece& piece) {
 
 Piece mergePieces(const Piece& a, const Piece& b) {
   Piece merged;
+  merged.stands = a.stands || b.stands;
   merged.points = a.points;
   merged.points.insert(merged.points.end(), b.points.begin(), b.points.end());
   merged.pixels = a.pixels;

@@ -20,6 +20,7 @@ struct Piece {
   std::vector<ContourPoint> contour;
   std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
   std::vector<TangentPlane> ends;      ///< where cuts end it, roughly
+  bool stands = true;                  ///< whether it may reach the table
   ViewFit fit;
   double covered = 0.0;  ///< cost of the free pixels that it covers
   double misfit = 1e300; ///< cost of points, planes and free pixels
@@ -56,9 +57,12 @@ Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 
-/** \brief The plane through the camera that touches a vessel on the side on which points
- * stand off it; none where too few do. */
-std::optional<Cut> handleCut(const PieceContext& context, const Piece& piece);
+/** \brief Parts what stands off a vessel, a handle, from its body. \return whether
+ * enough does, and hangs together */
+[[nodiscard]] bool standsOff(const PieceContext& context,
+                             const Piece& piece,
+                             Piece& body_piece,
+                             Piece& handle);
 
 enum class Effort {
   QUICK, ///< general shape, few starts

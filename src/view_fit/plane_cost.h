@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. The cost of tangent planes and half-spaces beside that of the points, and its
-// sums for any body with a support function.
+// Private. The cost of tangent planes and half-spaces beside that of the points, and
+// its sums for any body with a support function.
 #pragma once
 
 #include "pcl_sq/tangent_plane.h"
@@ -57,7 +57,6 @@ struct PlaneCost {
            half_width == 0.0;
   }
 };
-
 
 /** \brief A plane's residual normal . center + h(normal) - offset, and its derivatives.
  */

@@ -150,8 +150,7 @@ VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
   wall[10] = 1.0;
   wall[5] = -1.0;
   const double prior = std::log(s.wall / s.semi_axes.x()) - LOG_WALL;
-  e.addRow(planes_.unit / LOG_WALL_SIGMA * wall,
-           planes_.unit / LOG_WALL_SIGMA * prior);
+  e.addRow(planes_.unit / LOG_WALL_SIGMA * wall, planes_.unit / LOG_WALL_SIGMA * prior);
   return e;
 }
 
@@ -238,8 +237,7 @@ void VesselProblem::addPlanes(const Superquadric& s,
     r.reach = normal.dot(s.center) + n.dot(at);
     r.derivatives.head<3>() = n;
     r.derivatives.segment<2>(3) = at.cross(n).head<2>();
-    r.derivatives.tail<6>() =
-        (across * v.d.row(0) + n.z() * v.d.row(1)).transpose();
+    r.derivatives.tail<6>() = (across * v.d.row(0) + n.z() * v.d.row(1)).transpose();
     return r;
   };
   const auto reach = [&](const Eigen::Vector3d& n) { return row(n).reach; };
@@ -272,9 +270,8 @@ void VesselProblem::addPlanes(const Superquadric& s,
   }
 }
 
-Superquadric VesselProblem::moved(const Superquadric& m,
-                                  const Vector& step,
-                                  bool& limited) const {
+Superquadric
+VesselProblem::moved(const Superquadric& m, const Vector& step, bool& limited) const {
   Vector s = step;
   const auto shorten = [&](int begin, int size, double trust) {
     double largest = 0.0;
@@ -309,12 +306,12 @@ Superquadric VesselProblem::moved(const Superquadric& m,
   next.rim = std::clamp(m.rim + s[9], MIN_RIM, MAX_RIM);
   next.wall = m.wall * std::exp(s[10]);
   // open at the rim, and deeper than its wall
-  const double radius = next.semi_axes.x() * (1.0 + next.kx * next.rim) *
-                        std::pow(1.0 - std::pow(std::abs(next.rim), 2.0 / next.epsilon1),
-                                 0.5 * next.epsilon1);
-  next.wall = std::min({next.wall,
-                        0.5 * radius,
-                        0.5 * next.semi_axes.z() * (1.0 + next.rim)});
+  const double radius =
+      next.semi_axes.x() * (1.0 + next.kx * next.rim) *
+      std::pow(1.0 - std::pow(std::abs(next.rim), 2.0 / next.epsilon1),
+               0.5 * next.epsilon1);
+  next.wall =
+      std::min({next.wall, 0.5 * radius, 0.5 * next.semi_axes.z() * (1.0 + next.rim)});
   return next;
 }
 

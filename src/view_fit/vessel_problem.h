@@ -59,12 +59,10 @@ public:
   double sigma() const { return limits_.sigma; }
 
 private:
-  void addPoints(const Superquadric& s,
-                 const VesselProfile& profile,
-                 Equations& e) const;
-  void addPlanes(const Superquadric& s,
-                 const VesselProfile& profile,
-                 Equations& e) const;
+  void
+  addPoints(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
+  void
+  addPlanes(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
 
   const UnitPoints& points_;
   LmOptions limits_;

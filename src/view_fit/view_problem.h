@@ -66,7 +66,7 @@ private:
   PlaneCost cost_, few_;
   Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();   ///< unit length
   Eigen::Vector3d view_ = Eigen::Vector3d::UnitZ(); ///< away from the camera
-  std::optional<Eigen::Vector3d> eye_; ///< the camera's place
+  std::optional<Eigen::Vector3d> eye_;              ///< the camera's place
   bool has_up_ = false, has_view_ = false;
   double noise_ = 0.0;
   double max_axis_ = 20.0;

@@ -14,7 +14,8 @@ namespace {
 /** \brief Cost per observation from which on no family of solids is near the body: of a
  * vessel, the points of the inside lie far from any. */
 constexpr double MISFIT = 1.3;
-/** \brief Share of the points that a solid hides, from which on they are no outliers. */
+/** \brief Share of the points that a solid hides, from which on they are no outliers.
+ */
 constexpr double SEEN_BEHIND = 0.02;
 constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behind
 constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
@@ -47,7 +48,8 @@ Interval extentAlong(const UnitPoints& points, const Eigen::Vector3d& axis) {
 }
 
 /** \brief Vessels around the points with a given axis, from the bottom up. */
-std::vector<Superquadric> vesselStarts(const ViewProblem& p, const Eigen::Vector3d& up) {
+std::vector<Superquadric> vesselStarts(const ViewProblem& p,
+                                       const Eigen::Vector3d& up) {
   Superquadric s;
   s.rotation.col(2) = up;
   s.rotation.col(0) =
@@ -75,8 +77,8 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p, const Eigen::Vector
     const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
     s.semi_axes = {radius / growth, radius / growth, a3};
     s.wall = std::min(0.07 * radius, 0.3 * a3);
-    s.center = across.middle() * s.rotation.col(0) +
-               deep.middle() * s.rotation.col(1) + (high.low + a3) * up;
+    s.center = across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1) +
+               (high.low + a3) * up;
     starts.push_back(s);
   }
   return starts;
@@ -121,13 +123,15 @@ ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
   return c;
 }
 
-/** \brief What a solid cannot explain: points behind the surface that the camera sees. */
+/** \brief What a solid cannot explain: points behind the surface that the camera sees.
+ */
 struct Hidden {
   double share = 0.0; ///< of the points
   double cost = 0.0;  ///< by which they are no better than outliers
 };
 
-Hidden hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body) {
+Hidden
+hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body) {
   Hidden hidden;
   if (!problem.eye())
     return hidden;
@@ -203,7 +207,6 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   const VesselFamily thorough(problem, problem.medium(), sigma);
   for (Vessel& v : found)
     v = thorough.fit(v, ITERATIONS);
-  if(getenv("VDBG")) for(const Vessel&v:found) fprintf(stderr,"  vessel cost %.0f a %.1f %.1f e %.2f k %.2f c %.2f w %.1f\n",v.cost,v.model.semi_axes.x()*1e3*problem.frame().scale,v.model.semi_axes.z()*1e3*problem.frame().scale,v.model.epsilon1,v.model.kx,v.model.rim,v.model.wall*1e3*problem.frame().scale);
   return candidateOf(*std::min_element(found.begin(), found.end(), cheaper), problem);
 }
 

@@ -5,7 +5,8 @@
 
 namespace pcl_sq::test {
 
-/** \brief Any body with a rim, tapered, of size about one. \param[in] hollow or solid */
+/** \brief Any body with a rim, tapered, of size about one. \param[in] hollow or solid
+ */
 inline Superquadric anyOpenBody(Random& random, bool hollow) {
   Superquadric s = random.superquadric();
   s.semi_axes = {

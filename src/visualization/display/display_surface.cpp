@@ -128,12 +128,12 @@ DisplaySurface openSurface(const Superquadric& s, int steps) {
         const auto on = [&](const detail::Ring& ring, double at) {
           return detail::onRing(ring, s.epsilon2, at);
         };
-        const Eigen::Vector3d round = on(here, angle(k) + 1e-4) - on(here, angle(k) - 1e-4);
+        const Eigen::Vector3d round =
+            on(here, angle(k) + 1e-4) - on(here, angle(k) - 1e-4);
         const Eigen::Vector3d up = on(above, angle(k)) - on(below, angle(k));
         const Eigen::Vector3d normal =
-            here.section.empty()
-                ? Eigen::Vector3d(0.0, 0.0, part == 0 ? -1.0 : 1.0)
-                : round.cross(up).stableNormalized().eval();
+            here.section.empty() ? Eigen::Vector3d(0.0, 0.0, part == 0 ? -1.0 : 1.0)
+                                 : round.cross(up).stableNormalized().eval();
         surface.vertices.push_back(s.toWorld(on(here, angle(k))));
         surface.normals.push_back(s.rotation * normal);
       }
@@ -142,8 +142,10 @@ DisplaySurface openSurface(const Superquadric& s, int steps) {
     };
     for (std::uint32_t i = 0; i + 1 < rows; ++i)
       for (std::uint32_t k = 0; k < around; ++k) {
-        surface.triangles.push_back({index(i, k), index(i, k + 1), index(i + 1, k + 1)});
-        surface.triangles.push_back({index(i, k), index(i + 1, k + 1), index(i + 1, k)});
+        surface.triangles.push_back(
+            {index(i, k), index(i, k + 1), index(i + 1, k + 1)});
+        surface.triangles.push_back(
+            {index(i, k), index(i + 1, k + 1), index(i + 1, k)});
       }
     if (part == 0)
       continue;

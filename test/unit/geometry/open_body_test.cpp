@@ -153,8 +153,8 @@ TEST(OpenBody, FirstHitIsWhereASampledLineMeetsTheMaterial) {
   for (int trial = 0; trial < 200; ++trial) {
     const Superquadric s = anyOpenBody(random, true);
     const Eigen::Vector3d target = random.pointNear(s);
-    const Eigen::Vector3d eye = s.toWorld(
-        Eigen::Vector3d(random.uniform(-4, 4), random.uniform(-4, 4), 6.0));
+    const Eigen::Vector3d eye =
+        s.toWorld(Eigen::Vector3d(random.uniform(-4, 4), random.uniform(-4, 4), 6.0));
     const Eigen::Vector3d ray = 2.0 * (target - eye);
     double at = -1.0, expected = -1.0;
     const bool hit = firstHit(s, eye, ray, at);

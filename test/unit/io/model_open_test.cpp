@@ -38,8 +38,8 @@ TEST(ModelOpen, RimAndWallComeBackToTheBit) {
 
 TEST(ModelOpen, OlderVersionsKnowNeither) {
   ModelFile read;
-  ASSERT_TRUE(fromJson(
-      replaced(toJson(bowl(), -1), "\"version\":3", "\"version\":2"), read));
+  ASSERT_TRUE(
+      fromJson(replaced(toJson(bowl(), -1), "\"version\":3", "\"version\":2"), read));
   EXPECT_TRUE(read.model.parts[0].isPlain());
 }
 
