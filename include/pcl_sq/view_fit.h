@@ -67,7 +67,7 @@ struct PCL_SQ_EXPORTS ViewFitOptions {
    * its cost can then be compared with that of other parts of the same points. */
   bool all_points = false;
   /** \brief Whether TAPERED is among the families. */
-  bool taper = false;
+  bool taper = true;
   /** \brief Whether VESSEL is among the families. */
   bool vessel = true;
   bool robust = true;       ///< some points may be outliers
@@ -86,10 +86,9 @@ struct ViewFit {
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
 
-  /** \brief The best model with neither taper nor rim: where another search goes on
-   * from.
-   */
-  const Superquadric& straight() const;
+  /** \brief The best candidate with neither taper nor rim: where another search goes on
+   * from. */
+  const ShapeCandidate& straight() const;
 };
 
 /** \brief Fits one superquadric to points and to what its silhouette and its support

@@ -29,7 +29,8 @@ double aboveRim(const Superquadric& s, const Eigen::Vector3d& local) {
   return 1.0 + local.z() / s.semi_axes.z() - s.rimHeight();
 }
 
-/** \brief Support function in the own frame; the argument of the dual gauge is a_k u_k.
+/** \brief Support function in the own frame (M3); the argument of the dual gauge is a_k
+ * u_k.
  */
 LogGauge logSupport(const Superquadric& s, const Eigen::Vector3d& u) {
   return detail::logGauge(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The support function of a superquadric with a taper or a rim, by slices.
+// The support function of a superquadric with a taper or a rim (M3), by slices.
 #include "geometry/taper.h"
 
 #include <algorithm>

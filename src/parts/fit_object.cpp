@@ -110,13 +110,9 @@ void addShifted(const PieceContext& context,
 
 /** \brief Leaves the cuts that are worth full fits.
  * \param[in] limit what the score is to beat */
-void keepPromising(const PieceContext& context,
-                   std::vector<Split>& splits,
-                   double limit) {
+void keepPromising(std::vector<Split>& splits, double limit) {
   std::sort(splits.begin(), splits.end(), betterSplit);
-  if (context.options.fit.taper)
-    limit = 1e299; // quick fits know no taper
-  else if (!splits.empty())
+  if (!splits.empty())
     limit = std::min(limit + QUICK_SLACK,
                      QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
   while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
@@ -137,7 +133,7 @@ Split bestSplit(const PieceContext& context,
     splits[i] = split(context, piece, cuts[i]);
   });
   addShifted(context, piece, splits);
-  keepPromising(context, splits, limit);
+  keepPromising(splits, limit);
   parallelFor(splits.size(), threads, [&](std::size_t i) {
     fitInFull(context, splits[i], axis);
   });
@@ -158,9 +154,10 @@ Split bestSplit(const PieceContext& context,
  * the one solid of revolution, for where neither fits, the free one may be too flat. */
 TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
   TangentPlane back;
-  back.normal = (whole.straight().center - observed.camera.center).normalized();
+  const Superquadric& body = whole.straight().model;
+  back.normal = (body.center - observed.camera.center).normalized();
   back.offset = 0.0;
-  double farthest = back.residual(whole.straight());
+  double farthest = back.residual(body);
   // bare points have no outline worth the name that would tell
   if (!observed.pixels.cells.empty())
     for (const ShapeCandidate& c : whole.candidates)
@@ -224,15 +221,16 @@ void splitView(const PieceContext& context,
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
       Piece body, handle;
-      const bool good = piece.misfit < GOOD_FIT * observations(context, piece) &&
-                        !standsOff(context, piece, body, handle);
+      const bool good =
+          piece.straight_misfit < GOOD_FIT * observations(context, piece) &&
+          !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
       Split s =
           bestSplit(context,
                     piece,
                     main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
-                    exactly ? 1e299 : piece.score);
+                    exactly ? 1e299 : piece.straight_score);
       if (piece.score - s.score > gain) {
         gain = piece.score - s.score;
         best = std::move(s);
@@ -269,7 +267,7 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
-/** \brief Of each point: the noise's variance over that and what slant adds. */
+/** \brief Of each point: the noise's variance over that and what slant adds (M10). */
 std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   std::vector<float> precision;
   if (!(noise > 0.0))
