@@ -87,14 +87,17 @@ std::vector<ClosingLine> ClosingLines::find(double min_width,
                                             double& narrowest,
                                             double& widest) const {
   std::vector<ClosingLine> all, kept;
-  for (std::size_t k = 0; k < object_.size(); ++k)
+  for (std::size_t k = 0; k < object_.size(); ++k) {
     findOnPart(k, all);
+    if (object_.parts[k].isHollow())
+      findOnRim(k, all);
+  }
   narrowest = std::numeric_limits<double>::infinity();
   widest = 0.0;
   for (ClosingLine& line : all) {
     ++rejections.candidates;
     // both normals of a part's own line slip alike, and no second part mends both
-    if (line.slope <= options_.friction && extendToUnion(line))
+    if (line.slope <= options_.friction && !line.at_rim && extendToUnion(line))
       setSlope(line);
     if (line.slope > options_.friction) {
       ++rejections.slipping;
@@ -220,6 +223,8 @@ bool ClosingLines::cast(const Eigen::Vector3d& middle,
 
 bool ClosingLines::refine(ClosingLine& line, double max_width) const {
   bool better = false;
+  if (line.at_rim) // along the outside's normal already
+    return false;
   for (int step = 0; step < REFINEMENTS && line.slope > ALIGNED; ++step) {
     const Eigen::Vector3d& n0 = line.normals[0];
     const Eigen::Vector3d& n1 = line.normals[1];

@@ -31,9 +31,8 @@ struct TaperedPlace {
 inline TaperedPlace taperedPlace(const Lanes& l, const Taper& t, const Vector& y) {
   TaperedPlace p;
   const Float height = y.z * l.inverse_axis[2];
-  const Vector straight = {y.x * inverse(growth(t.kx, height)),
-                           y.y * inverse(growth(t.ky, height)),
-                           y.z};
+  const Vector straight = {
+      y.x * inverse(growth(t.kx, height)), y.y * inverse(growth(t.ky, height)), y.z};
   p.gauge = gauge(l, straight);
   const Float scale = exp(-p.gauge.value);
   p.height = height * scale;
@@ -102,8 +101,8 @@ public:
     inverse_p_ = all(0.5F * (2.0F - e2));
     for (int k = 0; k <= SLICES; ++k) {
       const float angle = 3.14159265F * (float(k) / SLICES - 0.5F);
-      const float size = __builtin_powf(__builtin_fabsf(__builtin_sinf(angle)),
-                                        shape.epsilon1);
+      const float size =
+          __builtin_powf(__builtin_fabsf(__builtin_sinf(angle)), shape.epsilon1);
       heights_[k] = k == SLICES / 2 ? 0.0F : __builtin_copysignf(size, angle);
     }
     heights_[0] = -1.0F;
@@ -127,9 +126,9 @@ public:
     const Vector touching = {along_x * inverse(positive(n.x)),
                              along_y * inverse(positive(n.y)),
                              axis_[2] * c.height};
-    const Float beyond = c.reach +
-                         dot(n, {lanes_.offset[0], lanes_.offset[1], lanes_.offset[2]}) -
-                         load(planes.offset + i);
+    const Float beyond =
+        c.reach + dot(n, {lanes_.offset[0], lanes_.offset[1], lanes_.offset[2]}) -
+        load(planes.offset + i);
     const Float w =
         select(beyond > load(planes.least + i), load(planes.weight + i), Float{});
     const Float grown_x = along_x * inverse(c.fx), grown_y = along_y * inverse(c.fy);
@@ -182,8 +181,8 @@ private:
     c.fy = growth(taper_.ky, height);
     c.u = abs(n.x) * axis_[0] * c.fx;
     c.v = abs(n.y) * axis_[1] * c.fy;
-    c.section = logNorm(
-        log(max(c.u, all(1e-12F))), log(max(c.v, all(1e-12F))), p_, inverse_p_);
+    c.section =
+        logNorm(log(max(c.u, all(1e-12F))), log(max(c.v, all(1e-12F))), p_, inverse_p_);
     c.reach = n.z * axis_[2] * height + c.scale * exp(c.section.value);
     return c;
   }
@@ -206,8 +205,8 @@ private:
       const auto lower = at_left > at_right; // the top lies below the right place
       low = select(lower, low, left);
       high = select(lower, right, high);
-      const Float next = select(
-          lower, high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+      const Float next =
+          select(lower, high - GOLDEN * (high - low), low + GOLDEN * (high - low));
       const Float at_next = at(n, next).reach;
       const Float kept = select(lower, left, right);
       const Float at_kept = select(lower, at_left, at_right);

@@ -2,7 +2,10 @@
 // The surface of a body with a rim: rings from the pole below over the rim to the
 // floor.
 #include "mesh/open_mesh.h"
+
 #include "geometry/open_body.h"
+#include <algorithm>
+#include <iterator>
 
 namespace pcl_sq::detail {
 
@@ -33,6 +36,35 @@ TriangleMesh meshOpenBody(const Superquadric& s, int divisions) {
       if (!rings[i + 1].section.empty())
         mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
     }
+  return mesh;
+}
+
+bool hasOpenParts(const MultiSuperquadric& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(), [](const auto& part) {
+    return part.isCut();
+  });
+}
+
+MultiSuperquadric withoutOpenParts(const MultiSuperquadric& model) {
+  MultiSuperquadric others;
+  std::copy_if(model.parts.begin(),
+               model.parts.end(),
+               std::back_inserter(others.parts),
+               [](const Superquadric& part) { return !part.isCut(); });
+  return others;
+}
+
+TriangleMesh
+addOpenParts(const MultiSuperquadric& model, int divisions, TriangleMesh mesh) {
+  for (const Superquadric& part : model.parts) {
+    if (!part.isCut())
+      continue;
+    const TriangleMesh own = meshOpenBody(part, divisions);
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), own.vertices.begin(), own.vertices.end());
+    for (const auto& t : own.triangles)
+      mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
   return mesh;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A handle: what stands off a vessel.
+// M22: a handle is what stands off a vessel.
 #include "parts/object_piece.h"
 #include "pcl_sq/line_intersection.h"
 
@@ -11,8 +11,8 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t MIN_POINTS = 24;
-constexpr double STANDS_OFF = 4.0;      ///< sigmas from the body
-constexpr double LINKED = 0.12;         ///< of neighbours, over the object's size
+constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
+constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
@@ -21,7 +21,9 @@ Superquadric grown(Superquadric body, double margin) {
   return body;
 }
 
-bool meets(const Superquadric& body, const PinholeCamera& camera, const Eigen::Vector2d& p) {
+bool meets(const Superquadric& body,
+           const PinholeCamera& camera,
+           const Eigen::Vector2d& p) {
   LineInterval chord;
   const Eigen::Vector3d ray = camera.ray(p);
   return intersectLineBox(body, camera.center, ray, chord) &&

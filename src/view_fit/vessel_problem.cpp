@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view_fit/vessel_problem.h"
 
-#include "solver/gaussian_uniform.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -157,8 +155,7 @@ VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
 void VesselProblem::addPoints(const Superquadric& s,
                               const VesselProfile& profile,
                               Equations& e) const {
-  const GaussianUniform density{limits_.sigma > 0.0 ? limits_.sigma : 1.0,
-                                limits_.outlier};
+  const RobustCost density{limits_.sigma > 0.0 ? limits_.sigma : 1.0, limits_.outlier};
   const float* precision = points_.view().precision;
   const double rim = profile.rimHeight(), opening = profile.opening();
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();
@@ -246,7 +243,7 @@ void VesselProblem::addPlanes(const Superquadric& s,
   addPlaneCost<N>(others, row, reach, e);
   // the outline may be a handle's here and there: robust, as the points are
   const double unit = planes_.unit;
-  const GaussianUniform density{1.0, OUTLIER};
+  const RobustCost density{1.0, OUTLIER};
   Vector slope = Vector::Zero();
   double sum = 0.0, weight_of_all = 0.0;
   for (const TangentPlane& plane : planes_.silhouette) {

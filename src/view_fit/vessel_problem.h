@@ -5,9 +5,28 @@
 #include "view_fit/view_problem.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace pcl_sq::detail {
+
+/** \brief A Gaussian of peak one beside a uniform density c (M5); what kernels::Mixture
+ * says for one residual. */
+struct RobustCost {
+  double sigma, c;
+
+  /** \brief -2 sigma^2 ln of the density over the largest, which is the square itself
+   * for c = 0. \param[out] share of the Gaussian in the density */
+  double cost(double square, double& share) const {
+    share = 1.0;
+    if (!(c > 0.0))
+      return square;
+    const double s = 0.5 / (sigma * sigma);
+    const double density = std::exp(-s * square);
+    share = density / (density + c);
+    return (std::log1p(c) - std::log(density + c)) / s;
+  }
+};
 
 /** \brief A place of a vessel's meridian, (distance from the axis, height), with its
  * derivatives for ln a, ln a3, e1, k, rim, ln wall. */
@@ -29,7 +48,7 @@ struct VesselProfile {
   double opening() const { return inside[INNER + 1].at.x(); } ///< radius
 };
 
-/** \brief Points, planes and the wall's prior, as minimiseSquares() wants them.
+/** \brief M21: points, planes and the wall's prior, as minimiseSquares() wants them.
  *
  * Which wall a point lies on is told by its ray, not by what is near: the camera sees
  * the inside where the ray comes through the opening. Without a camera, or within a

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The family of open vessels: bowls, cups, pots, plates.
-#include "solver/gaussian_uniform.h"
 #include "view_fit/shape_spaces.h"
 #include "view_fit/vessel_problem.h"
 
@@ -148,7 +147,7 @@ hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body)
   residualsOf(body, nearer, kernels::Residual::FOOT_POINT, there.data());
   residualsOf(body, points, kernels::Residual::FOOT_POINT, here.data());
   const LmOptions limits = problem.limits(sigma);
-  const GaussianUniform density{sigma, limits.outlier};
+  const RobustCost density{sigma, limits.outlier};
   const float* precision = points.view().precision;
   double cost = 0.0, count = 0.0, share;
   const double outlier = density.cost(1e6 * sigma * sigma, share);
