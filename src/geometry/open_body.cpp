@@ -42,21 +42,18 @@ bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2
   return inside;
 }
 
-/** \brief Integrals between two heights over a3 of the body shrunk by an inset.
- *
- * By Gauss's rule over the latitude, in which the section's size and the height are
- * smooth: dz = a3 e1 sin^(e1 - 1) cos d eta. */
+/** \brief Integrals between two heights over a3 of the body shrunk by an inset: Gauss's
+ * rule between heights of equal steps of the latitude, which are dense at the poles,
+ * where the section's size is steep. */
 AxialMoments
 momentsBetween(const Superquadric& s, double low, double high, double inset) {
   // area of a superellipse of unit semi-axes, and the integral of x^2 over it
   const double e2 = s.epsilon2;
-  const double area = e2 * 2.0 * std::pow(std::tgamma(0.5 * e2), 2) / std::tgamma(e2);
+  const double area = e2 * std::pow(std::tgamma(0.5 * e2), 2) / std::tgamma(e2);
   const double second = e2 * e2 * std::tgamma(1.5 * e2) * std::tgamma(0.5 * e2) /
                         std::tgamma(2.0 * e2 + 1.0);
   AxialMoments m;
   const double a3 = s.semi_axes.z();
-  // pieces on either side of the equator; the substitution height = t^power takes the
-  // vertical ends and the equator's singularity of small exponents away
   const auto addPiece = [&](double from, double to) {
     constexpr int PIECES = 24;
     for (int i = 0; i < PIECES; ++i) {

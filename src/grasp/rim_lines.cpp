@@ -53,8 +53,7 @@ void ClosingLines::findOnRim(std::size_t part, std::vector<ClosingLine>& lines) 
     const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
     double inside = 0.0, outside = 2.0 * reach; // of the body at that height
     const auto at = [&](double radius) {
-      return s.toWorld(radius * direction +
-                       (rim - depth) * Eigen::Vector3d::UnitZ());
+      return s.toWorld(radius * direction + (rim - depth) * Eigen::Vector3d::UnitZ());
     };
     for (int k = 0; k < BISECTIONS; ++k) {
       const double middle = 0.5 * (inside + outside);

@@ -163,6 +163,12 @@ TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
     for (const ShapeCandidate& c : whole.candidates)
       if (c.shape == ShapeClass::ROTATIONAL)
         farthest = std::max(farthest, back.residual(c.model));
+  if (whole.chosen.shape ==
+      ShapeClass::VESSEL) { // a solid says nothing; nor of a handle
+    farthest = std::max(farthest, back.residual(whole.chosen.model));
+    for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
+      farthest = std::max(farthest, back.normal.dot(observed.points.col(i)));
+  }
   back.offset = farthest + BACK_SLACK * observed.extent;
   back.sigma = BACK_SIGMA * observed.extent;
   return back;

@@ -10,8 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Cost per observation from which on no family of solids is near the body: of a
- * vessel, the points of the inside lie far from any. */
+/** \brief Cost per observation from which on no family of solids is near the points
+ * from all round: of a vessel, those of the inside lie far from any. */
 constexpr double MISFIT = 1.3;
 /** \brief Share of the points that a solid hides, from which on they are no outliers.
  */
@@ -179,15 +179,16 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
       best = &c;
   if (!best)
     return std::nullopt;
-  const bool behind = hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND;
-  if (!behind && best->cost < MISFIT * problem.observations())
+  const bool evident =
+      problem.eye() ? hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND
+                    : best->cost > MISFIT * problem.observations();
+  if (!evident)
     return std::nullopt;
-  if (behind)
-    for (ShapeCandidate& c : candidates) {
-      const double cost = hiddenPoints(problem, sigma, c.model).cost;
-      c.cost += cost;
-      c.bic += cost;
-    }
+  for (ShapeCandidate& c : candidates) {
+    const double cost = hiddenPoints(problem, sigma, c.model).cost;
+    c.cost += cost;
+    c.bic += cost;
+  }
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
     axes.push_back(problem.up());

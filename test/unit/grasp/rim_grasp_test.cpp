@@ -45,10 +45,8 @@ TEST(RimGrasp, BowlWiderThanTheHandIsHeldAtItsRim) {
       EXPECT_GT(cosine, 1.0 / std::sqrt(1.0 + 0.25) - 1e-9);
     }
     // one finger in the hollow
-    EXPECT_NE(s.inHollow(grasp.contacts[0].position +
-                         1e-4 * grasp.contacts[0].normal),
-              s.inHollow(grasp.contacts[1].position +
-                         1e-4 * grasp.contacts[1].normal));
+    EXPECT_NE(s.inHollow(grasp.contacts[0].position + 1e-4 * grasp.contacts[0].normal),
+              s.inHollow(grasp.contacts[1].position + 1e-4 * grasp.contacts[1].normal));
   }
 }
 
@@ -67,10 +65,10 @@ TEST(RimGrasp, BoxesCollideWithTheMaterialOnly) {
     for (int i = 0; i <= N && !touched; ++i)
       for (int j = 0; j <= N && !touched; ++j)
         for (int k = 0; k <= N && !touched; ++k) {
-          const Eigen::Vector3d p = Eigen::Vector3d(i, j, k) * 2.0 / N -
-                                    Eigen::Vector3d::Ones();
-          touched = s.inMaterial(box.center +
-                                 box.rotation * p.cwiseProduct(box.half_sizes));
+          const Eigen::Vector3d p =
+              Eigen::Vector3d(i, j, k) * 2.0 / N - Eigen::Vector3d::Ones();
+          touched =
+              s.inMaterial(box.center + box.rotation * p.cwiseProduct(box.half_sizes));
         }
     if (touched) {
       EXPECT_TRUE(collides(box, s)) << trial;
