@@ -140,7 +140,7 @@ Split bestSplit(const PieceContext& context,
   Split best;
   if (standsOff(context, piece, best.first, best.second)) {
     fitPiece(context, best.first, Effort::FULL);
-    fitPiece(context, best.second, Effort::FULL);
+    fitHandle(context, best.second, piece.fit.fit.model);
     best.score = best.first.score + best.second.score;
   }
   for (Split& s : splits)

@@ -67,6 +67,10 @@ std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
                              Piece& body_piece,
                              Piece& handle);
 
+/** \brief Fits a handle and scores it; the ellipsoid around its points where no fit
+ * comes near them. */
+void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body);
+
 enum class Effort {
   QUICK, ///< general shape, few starts
   START, ///< general shape, all starts: where AGAIN goes on from

@@ -11,8 +11,11 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t MIN_POINTS = 24;
+constexpr std::size_t MIN_CLUSTER = 8;    ///< of a handle's other arm
+constexpr double SAME_SIDE = 0.5;         ///< cosine of 60 degrees around the axis
 constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
 constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
+constexpr double MAX_COST = 9.2;          ///< of a point, as an outlier
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
@@ -30,33 +33,81 @@ bool meets(const Superquadric& body,
          intersectLine(body, camera.center, ray, chord);
 }
 
-/** \brief The largest set of columns that hang together. */
-std::vector<int> largestCluster(const Eigen::Matrix3Xd& points,
-                                const std::vector<int>& columns,
-                                double radius) {
-  std::vector<int> best;
+/** \brief Sets of columns that hang together, the largest first. */
+std::vector<std::vector<int>> clustersOf(const Eigen::Matrix3Xd& points,
+                                         const std::vector<int>& columns,
+                                         double radius) {
+  std::vector<std::vector<int>> clusters;
   std::vector<bool> taken(columns.size(), false);
   for (std::size_t first = 0; first < columns.size(); ++first) {
     if (taken[first])
       continue;
     taken[first] = true;
-    std::vector<std::size_t> cluster = {first};
+    std::vector<int> cluster = {columns[first]};
     for (std::size_t k = 0; k < cluster.size(); ++k)
       for (std::size_t j = 0; j < columns.size(); ++j)
         if (!taken[j] &&
-            (points.col(columns[j]) - points.col(columns[cluster[k]])).squaredNorm() <
+            (points.col(columns[j]) - points.col(cluster[k])).squaredNorm() <
                 radius * radius) {
           taken[j] = true;
-          cluster.push_back(j);
+          cluster.push_back(columns[j]);
         }
-    if (cluster.size() <= best.size())
-      continue;
-    best.clear();
-    for (const std::size_t k : cluster)
-      best.push_back(columns[k]);
+    clusters.push_back(std::move(cluster));
   }
-  std::sort(best.begin(), best.end());
-  return best;
+  std::sort(clusters.begin(), clusters.end(), [](const auto& a, const auto& b) {
+    return a.size() > b.size();
+  });
+  return clusters;
+}
+
+Eigen::Vector3d meanOf(const Eigen::Matrix3Xd& points,
+                       const std::vector<int>& columns) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const int i : columns)
+    mean += points.col(i) / double(columns.size());
+  return mean;
+}
+
+/** \brief The points that stand off a body on one side: the largest cluster, and those
+ * on the same side of the axis, the other arm of a handle. */
+std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
+                         const Superquadric& body,
+                         const std::vector<std::vector<int>>& clusters) {
+  std::vector<int> side;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (const std::vector<int>& cluster : clusters) {
+    Eigen::Vector3d away = body.toLocal(meanOf(points, cluster));
+    away.z() = 0.0;
+    away.normalize();
+    if (side.empty())
+      direction = away;
+    else if (cluster.size() < MIN_CLUSTER || away.dot(direction) < SAME_SIDE)
+      continue;
+    side.insert(side.end(), cluster.begin(), cluster.end());
+  }
+  std::sort(side.begin(), side.end());
+  return side;
+}
+
+/** \brief The ellipsoid around the points of a handle, an axis outwards from the body:
+ * what is left to say where no fit comes near the points. */
+Superquadric aroundPoints(const Eigen::Matrix3Xd& points,
+                          const std::vector<int>& columns,
+                          const Superquadric& body) {
+  Superquadric s;
+  const Eigen::Vector3d up = body.rotation.col(2);
+  Eigen::Vector3d away = meanOf(points, columns) - body.center;
+  away = (away - up * up.dot(away)).normalized();
+  s.rotation << away, up.cross(away), up;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const int i : columns) {
+    const Eigen::Vector3d p = s.rotation.transpose() * points.col(i);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  s.center = s.rotation * (0.5 * (low + high));
+  s.semi_axes = 0.5 * (high - low).cwiseMax(0.05 * (high - low).maxCoeff());
+  return s;
 }
 
 } // namespace
@@ -75,7 +126,7 @@ bool standsOff(const PieceContext& context,
     if (!body.contains(p) && body.footPointDistance(p) > STANDS_OFF * context.noise)
       off.push_back(i);
   }
-  off = largestCluster(o.points, off, LINKED * o.extent);
+  off = oneSide(o.points, body, clustersOf(o.points, off, LINKED * o.extent));
   if (off.size() < MIN_POINTS || 2 * off.size() > piece.points.size())
     return false;
   body_piece = handle = {};
@@ -110,6 +161,43 @@ bool standsOff(const PieceContext& context,
       addForeign(body_piece, p);
     }
   return true;
+}
+
+void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body) {
+  fitPiece(context, handle, Effort::FULL);
+  const Eigen::Matrix3Xd points = gather(context, handle.points);
+  const Superquadric& found = handle.fit.fit.model;
+  const Superquadric around =
+      aroundPoints(context.observed.points, handle.points, body);
+  const auto costOf = [&](const Superquadric& s) {
+    double cost = 0.0;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      cost += std::min(std::pow(s.footPointDistance(points.col(i)) / context.noise, 2),
+                       MAX_COST);
+    return cost / double(points.cols());
+  };
+  const Eigen::Vector3d size = found.boundingBox().sizes();
+  const bool near = handle.fit.fit.ok() &&
+                    (found.center - around.center).norm() <
+                        around.semi_axes.norm() + STANDS_OFF * context.noise &&
+                    size.norm() < 4.0 * around.semi_axes.norm() &&
+                    costOf(found) < 0.5 * MAX_COST;
+  if (near)
+    return;
+  ShapeCandidate c;
+  c.shape = ShapeClass::ELLIPSOID;
+  c.model = around;
+  c.parameters = 9;
+  c.cost = costOf(around) * context.observed.effective_points * double(points.cols()) /
+           double(context.observed.points.cols());
+  handle.fit.candidates = {c};
+  handle.fit.chosen = c;
+  handle.fit.fit.model = around;
+  handle.fit.fit.points = handle.points.size();
+  handle.fit.fit.termination = Termination::COST_CHANGE_TOO_SMALL;
+  handle.misfit = c.cost;
+  handle.score =
+      c.cost + c.parameters * std::log(1.0 + context.observed.effective_points);
 }
 
 } // namespace pcl_sq::detail
