@@ -16,9 +16,9 @@ constexpr double SAMPLE = 2000.0;
 /** \brief How far things are off the best superquadrics, over half their size: even the
  * ball that fits a cube best lies within .08 of the cube's side. */
 constexpr double MODEL_ERROR = 0.1;
-constexpr double SIGMAS = 3.0;     ///< farther points are not the surface's
+constexpr double SIGMAS = 3.0;       ///< farther points are not the surface's
 constexpr double LEAST_PIXELS = 0.8; ///< four to one for the model
-constexpr double EVEN = 0.5;       ///< as likely wrong as right
+constexpr double EVEN = 0.5;         ///< as likely wrong as right
 
 bool covers(const MultiSuperquadric& model,
             const Eigen::Vector3d& eye,
@@ -31,9 +31,8 @@ bool covers(const MultiSuperquadric& model,
       });
 }
 
-double explainedPoints(const MultiSuperquadric& model,
-                       const ObservedObject& o,
-                       double noise) {
+double
+explainedPoints(const MultiSuperquadric& model, const ObservedObject& o, double noise) {
   Eigen::Index explained = 0;
   for (Eigen::Index i = 0; i < o.points.cols(); ++i) {
     const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
@@ -57,8 +56,10 @@ double spacing(const std::vector<Eigen::Vector2d>& grid) {
 
 std::string Verdict::objection() const {
   if (points < EVEN)
-    return "the object's points lie too far from any model of it: they are no one thing, "
-           "or noise; give the object's region or mask, or more texture to a stereo pair";
+    return "the object's points lie too far from any model of it: they are no one "
+           "thing, "
+           "or noise; give the object's region or mask, or more texture to a stereo "
+           "pair";
   if (pixels < LEAST_PIXELS)
     return "the model covers but " + std::to_string(int(std::lround(100.0 * pixels))) +
            " % of the object's pixels, so it is not the object; give a tighter region "
@@ -66,7 +67,8 @@ std::string Verdict::objection() const {
   if (confidence() < EVEN)
     return "the model and what was seen agree by " +
            std::to_string(int(std::lround(100.0 * confidence()))) +
-           " % only, so it is as likely wrong as right; give a tighter region or a mask "
+           " % only, so it is as likely wrong as right; give a tighter region or a "
+           "mask "
            "of the object";
   return {};
 }
@@ -95,8 +97,8 @@ judge(const MultiSuperquadric& model, const ObservedObject& observed, double noi
   if (own == 0)
     return verdict;
   verdict.pixels = double(covered) / double(own);
-  const auto through = std::count_if(
-      observed.free_space.begin(), observed.free_space.end(), seen);
+  const auto through =
+      std::count_if(observed.free_space.begin(), observed.free_space.end(), seen);
   const double scale = std::pow(spacing(observed.free_space) / step, 2);
   verdict.background =
       double(covered) / std::max(1.0, double(covered) + scale * double(through));

@@ -9,8 +9,8 @@ namespace pcl_sq::detail {
 
 /** \brief What a model explains of what was seen, shares of 0 to 1. */
 struct Verdict {
-  double points = 1.0;     ///< of the points, to within their noise and the model's error
-  double pixels = 1.0;     ///< of the object's pixels, that the model covers
+  double points = 1.0; ///< of the points, to within their noise and the model's error
+  double pixels = 1.0; ///< of the object's pixels, that the model covers
   double background = 1.0; ///< of the pixels it covers, where none is seen through it
 
   /** \brief All three together. */
@@ -20,8 +20,7 @@ struct Verdict {
   std::string objection() const;
 };
 
-[[nodiscard]] Verdict judge(const MultiSuperquadric& model,
-                            const ObservedObject& observed,
-                            double noise);
+[[nodiscard]] Verdict
+judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise);
 
 } // namespace pcl_sq::detail
