@@ -101,8 +101,11 @@ std::string reportToJson(const ModelResult& result) {
         {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
   const Eigen::Vector3d size = sizeOf(result).sides;
-  return nlohmann::ordered_json{{"size", numbers(size)}, {"report", json}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  nlohmann::ordered_json all = {{"size", numbers(size)}};
+  if (report.view.points.cols() > 0)
+    all["confidence"] = report.confidence;
+  all["report"] = json;
+  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace pcl_sq::app

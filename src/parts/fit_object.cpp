@@ -119,6 +119,14 @@ void keepPromising(std::vector<Split>& splits, double limit) {
     splits.pop_back();
 }
 
+/** \brief Whether a piece's model is a body: splinters thinner than the noise and
+ * needles longer than the object are none. */
+bool isPart(const PieceContext& context, const Piece& piece) {
+  const Eigen::Vector3d half = piece.fit.fit.model.halfSizes();
+  return half.minCoeff() > context.noise &&
+         half.maxCoeff() < 2.0 * context.observed.extent;
+}
+
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
  * \param[in] axis another part whose axis the two may share, or nullptr
  * \param[in] limit what the score is to beat */
@@ -144,7 +152,8 @@ Split bestSplit(const PieceContext& context,
     best.score = best.first.score + best.second.score;
   }
   for (Split& s : splits)
-    if (s.score < best.score && (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
+    if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
+        (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
   return best;
 }
@@ -273,15 +282,28 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
-/** \brief Of each point: the noise's variance over that and what slant adds (M10). */
+/** \brief Of each point: the noise's variance over that of its own, with what slant
+ * adds (M10). */
 std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   std::vector<float> precision;
   if (!(noise > 0.0))
     return precision;
-  for (const float error : observed.sideways)
-    precision.push_back(static_cast<float>(
-        1.0 / (1.0 + std::pow(SIDEWAYS * double(error) / noise, 2))));
+  for (Eigen::Index i = 0; i < observed.sideways.size(); ++i) {
+    const double own =
+        observed.noise.size() > 0 ? double(observed.noise[i]) / noise : 1.0;
+    const double slant = SIDEWAYS * double(observed.sideways[i]) / noise;
+    precision.push_back(static_cast<float>(1.0 / (own * own + slant * slant)));
+  }
   return precision;
+}
+
+/** \brief What most points err by at most, where that is known. */
+double medianNoise(const ObservedObject& observed) {
+  std::vector<float> noise(observed.noise.data(),
+                           observed.noise.data() + observed.noise.size());
+  const auto middle = noise.begin() + std::ptrdiff_t(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return double(*middle);
 }
 
 } // namespace
@@ -301,8 +323,10 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   if (spannedDimensions(observed.points) < 3)
     return fit;
   double noise = options.fit.noise;
+  const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
-    noise = observed.hasCamera()
+    noise = measured ? medianNoise(observed)
+            : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
                 : curvedNoise(observed.points);
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
@@ -319,10 +343,11 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     return fit;
   if (split) {
     context.noise =
-        Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
+        Eigen::Vector3d(measured ? noise : std::min(noise, pieces[0].fit.noise),
                         MODEL_ERROR * observed.extent,
-                        observed.pixels.cells.empty() ? 0.0
-                                                      : SENSOR_ERROR * observed.depth)
+                        measured || observed.pixels.cells.empty()
+                            ? 0.0
+                            : SENSOR_ERROR * observed.depth)
             .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
