@@ -189,6 +189,8 @@ double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
 }
 
 double Superquadric::euclideanDistance(const Eigen::Vector3d& point) const {
+  if (isCut() && detail::isRound(*this)) // the same, without a search
+    return footPointDistance(point);
   const double distance = (point - closestPoint(point)).norm();
   return std::copysign(distance, inHollow(point) ? 1.0 : gauge(point) - 1.0);
 }

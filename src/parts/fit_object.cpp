@@ -26,6 +26,8 @@ constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
 /** \brief Score of quick fits from which on a cut is not worth full ones: over what it
  * is to beat, and the factor over the best cut's. */
 constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
+/** \brief Share of a vessel's points that may be its handle's. */
+constexpr double MOST_OF_HANDLE = 0.12;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief How far the best cut is moved, over half the piece's size. */
@@ -262,6 +264,44 @@ void splitView(const PieceContext& context,
     mergeParts(context, pieces, min_gain);
 }
 
+/** \brief A vessel seen from all round, and its handle. \return whether it explains the
+ * cloud: a bottle's body is a vessel as well, its neck is no handle */
+bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
+  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL)
+    return false;
+  // not what points on both sides of its wall seemed to have
+  const double noise = context.noise;
+  context.noise = std::min(
+      noise,
+      std::max(scatter(context, pieces[0]), MODEL_ERROR * context.observed.extent));
+  Piece body, handle;
+  if (!standsOff(context, pieces[0], body, handle))
+    return true;
+  if (double(handle.points.size()) > MOST_OF_HANDLE * double(pieces[0].points.size())) {
+    context.noise = noise;
+    return false;
+  }
+  fitHandle(context, handle, pieces[0].fit.fit.model);
+  body.fit = pieces[0].fit;
+  body.score = pieces[0].score;
+  pieces = {std::move(body), std::move(handle)};
+  return true;
+}
+
+/** \brief The parts of a whole cloud, solids all of them. */
+std::vector<Piece>
+splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gain) {
+  const bool exactly = context.options.parts > 0;
+  if (whole.fit.chosen.shape != ShapeClass::VESSEL)
+    return splitWholeCloud(context, std::move(whole), wanted, exactly, min_gain);
+  ObjectFitOptions options = context.options;
+  options.fit.vessel = false;
+  const PieceContext solids{
+      context.observed, options, context.noise, context.precision, context.limits};
+  fitPiece(solids, whole, Effort::AGAIN);
+  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+}
+
 /** \brief Last fits of all parts. They share the axis of the largest solid of
  * revolution among them where the data agree: what one part's points leave open,
  * another's may tell. */
@@ -356,9 +396,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       splitView(context, pieces, wanted, min_gain);
       if (wanted >= 4 && options.parts == 0)
         openGap(context, pieces, min_gain);
-    } else
-      pieces = splitWholeCloud(
-          context, std::move(pieces[0]), wanted, options.parts > 0, min_gain);
+    } else if (!fitWholeVessel(context, pieces))
+      pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
     finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);

@@ -67,6 +67,10 @@ std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
                              Piece& body_piece,
                              Piece& handle);
 
+/** \brief Median distance of a piece's points to its model, as a standard deviation
+ * [m]. */
+double scatter(const PieceContext& context, const Piece& piece);
+
 /** \brief Fits a handle and scores it; the ellipsoid around its points where no fit
  * comes near them. */
 void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body);

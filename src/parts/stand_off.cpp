@@ -2,6 +2,7 @@
 // M22: a handle is what stands off a vessel.
 #include "parts/object_piece.h"
 #include "pcl_sq/line_intersection.h"
+#include "sensor/local_quadric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,7 @@ bool standsOff(const PieceContext& context,
                Piece& body_piece,
                Piece& handle) {
   const ObservedObject& o = context.observed;
-  if (!o.hasCamera() || piece.fit.chosen.shape != ShapeClass::VESSEL)
+  if (piece.fit.chosen.shape != ShapeClass::VESSEL)
     return false;
   const Superquadric& body = piece.fit.fit.model;
   std::vector<int> off;
@@ -138,6 +139,8 @@ bool standsOff(const PieceContext& context,
                       off.end(),
                       std::back_inserter(body_piece.points));
   body_piece.ends = piece.ends;
+  if (!o.hasCamera())
+    return true;
   // an outline beside the body is the handle's; where they meet it is nobody's
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy);
   const Superquadric near = grown(body, EDGE * pixel), far = grown(body, JOINT * pixel);
@@ -161,6 +164,17 @@ bool standsOff(const PieceContext& context,
       addForeign(body_piece, p);
     }
   return true;
+}
+
+double scatter(const PieceContext& context, const Piece& piece) {
+  constexpr std::size_t MOST = 1000;
+  constexpr double MEDIAN_OF_NORMAL = 0.6745;
+  const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < piece.points.size(); i += step)
+    distances.push_back(std::abs(piece.fit.fit.model.footPointDistance(
+        context.observed.points.col(piece.points[i]))));
+  return median(std::move(distances)) / MEDIAN_OF_NORMAL;
 }
 
 void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body) {

@@ -2,6 +2,7 @@
 #include "parts/verdict.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "union/surface_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,20 @@ bool covers(const MultiSuperquadric& model,
 double
 explainedPoints(const MultiSuperquadric& model, const ObservedObject& o, double noise) {
   Eigen::Index explained = 0;
+  // the nearest place of a wall costs a search; of a solid of revolution, which vessels
+  // are, the distance in the half plane is the same
+  const bool open = std::any_of(
+      model.parts.begin(), model.parts.end(), [](const auto& s) { return s.isCut(); });
+  const std::vector<double> distances =
+      open ? smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT)
+           : std::vector<double>();
   for (Eigen::Index i = 0; i < o.points.cols(); ++i) {
     const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
     const double aside = o.sideways.size() > 0 ? double(o.sideways[i]) : 0.0;
     const double limit = SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
-    explained += std::abs(model.euclideanDistance(o.points.col(i))) <= limit;
+    const double distance =
+        open ? distances[std::size_t(i)] : model.euclideanDistance(o.points.col(i));
+    explained += std::abs(distance) <= limit;
   }
   return double(explained) / double(std::max<Eigen::Index>(1, o.points.cols()));
 }

@@ -12,6 +12,9 @@ constexpr double MAX_EPSILON = 1.5; ///< a vessel's wall is not pinched
 constexpr double MIN_RIM = -0.9, MAX_RIM = 0.97;
 constexpr double MAX_TAPER = 0.9;
 constexpr double TRUST = 0.5, RIM_TRUST = 0.3; ///< largest steps
+/** \brief Of the wall, over the rim's radius and the depth: a body with a floor as
+ * thick as it is high is a solid in disguise. */
+constexpr double MOST_WALL = 0.3;
 /** \brief Logarithm of the wall's thickness over the radius, and its deviation: pots,
  * bowls, mugs and glasses have 0.04 to 0.12. It decides where one side is seen. */
 constexpr double LOG_WALL = -2.7, LOG_WALL_SIGMA = 0.5;
@@ -150,6 +153,20 @@ VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
   const double prior = std::log(s.wall / s.semi_axes.x()) - LOG_WALL;
   e.addRow(planes_.unit / LOG_WALL_SIGMA * wall, planes_.unit / LOG_WALL_SIGMA * prior);
   return e;
+}
+
+double VesselProblem::insideShare(const Superquadric& s) const {
+  const VesselProfile profile(s);
+  double inside = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d p = s.toLocal(points_[i].cast<double>());
+    const Eigen::Vector2d place(p.head<2>().norm(), p.z());
+    Foot outer, inner;
+    takeNearest(profile.outside, place, outer);
+    takeNearest(profile.inside, place, inner);
+    inside += inner.distance < outer.distance;
+  }
+  return inside / double(points_.size());
 }
 
 void VesselProblem::addPoints(const Superquadric& s,
@@ -307,8 +324,9 @@ VesselProblem::moved(const Superquadric& m, const Vector& step, bool& limited) c
       next.semi_axes.x() * (1.0 + next.kx * next.rim) *
       std::pow(1.0 - std::pow(std::abs(next.rim), 2.0 / next.epsilon1),
                0.5 * next.epsilon1);
-  next.wall =
-      std::min({next.wall, 0.5 * radius, 0.5 * next.semi_axes.z() * (1.0 + next.rim)});
+  next.wall = std::min({next.wall,
+                        MOST_WALL * radius,
+                        MOST_WALL * next.semi_axes.z() * (1.0 + next.rim)});
   return next;
 }
 

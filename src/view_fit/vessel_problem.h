@@ -74,6 +74,8 @@ public:
   Superquadric moved(const Superquadric& m, const Vector& step, bool& limited) const;
   bool isActiveBound(const Superquadric& m, const Vector& direction) const;
   double rounding() const { return 1e-14 * double(points_.size()); }
+  /** \brief Share of the points that lie nearer to the inside than to the outside. */
+  double insideShare(const Superquadric& model) const;
   const PlaneCost& planes() const { return planes_; }
   double sigma() const { return limits_.sigma; }
 

@@ -10,9 +10,17 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Cost per observation from which on no family of solids is near the points
- * from all round: of a vessel, those of the inside lie far from any. */
-constexpr double MISFIT = 1.3;
+/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
+constexpr double OUTLIER = 0.01;
+/** \brief Least share of a whole cloud's points on either side of a vessel's wall. */
+constexpr double BOTH_SIDES = 0.15;
+/** \brief A wall is told from noise by so many sigmas. */
+constexpr double RESOLVED = 3.0;
+/** \brief Things are no vessels: how far they are off, in the points' deviation; and
+ * the share of the points within so many of those that a vessel with a handle explains.
+ */
+constexpr double MODEL_ERROR = 0.01, STANDS_OFF = 4.0, EXPLAINED = 0.85;
+constexpr double MIN_SIGMA = 1e-3; ///< of points without noise, in their deviation
 /** \brief Share of the points that a solid hides, from which on they are no outliers.
  */
 constexpr double SEEN_BEHIND = 0.02;
@@ -102,8 +110,14 @@ public:
         least_squares_, start.model, vesselBasis(start.upright), limits);
     found.model.rotation =
         Eigen::Quaterniond(found.model.rotation).normalized().toRotationMatrix();
+    if (!found.model.isValid())
+      return {start.model, 1e300, start.upright};
     const double unit = least_squares_.planes().unit;
     return {found.model, found.equations.cost / (unit * unit), start.upright};
+  }
+
+  double insideShare(const Superquadric& model) const {
+    return least_squares_.insideShare(model);
   }
 
 private:
@@ -164,6 +178,72 @@ hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body)
   return hidden;
 }
 
+/** \brief Sigma of the points about a body: what the mixture makes of their distances.
+ */
+template <typename Distance>
+double scatterOf(const UnitPoints& points, double sigma, const Distance& distance) {
+  constexpr int ROUNDS = 8;
+  std::vector<double> squares(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    squares[i] = std::pow(distance(i), 2);
+  for (int round = 0; round < ROUNDS; ++round) {
+    const RobustCost density{sigma, OUTLIER};
+    double shares = 0.0, weighted = 0.0, share;
+    for (const double square : squares) {
+      density.cost(square, share);
+      shares += share;
+      weighted += share * square;
+    }
+    sigma = std::max(std::sqrt(weighted / std::max(shares, 1.0)), MIN_SIGMA);
+  }
+  return sigma;
+}
+
+double scatterOf(const UnitPoints& points, double sigma, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  return scatterOf(points, sigma, [&](std::size_t i) { return double(distances[i]); });
+}
+
+/** \brief Share of the points that are near a body. */
+double nearShare(const UnitPoints& points, double reach, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  double near = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    near += std::abs(double(distances[i])) <= reach;
+  return near / double(points.size());
+}
+
+/** \brief A vessel beside a solid where nobody knows the noise: that of points on both
+ * sides of a wall looks as large as the wall is thick. Each has the noise that it
+ * leaves, sigma, and -2 ln L is 2 n ln sigma. */
+std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
+                                           double sigma,
+                                           Vessel vessel,
+                                           const ShapeCandidate& solid) {
+  constexpr int ROUNDS = 3;
+  const UnitPoints& points = problem.medium();
+  double own = sigma;
+  for (int round = 0; round < ROUNDS; ++round) {
+    own = std::min(own, scatterOf(points, own, vessel.model));
+    vessel = VesselFamily(problem, points, own).fit(vessel, ITERATIONS);
+  }
+  const double inside = VesselFamily(problem, points, own).insideShare(vessel.model);
+  if (!(vessel.cost < 1e299) || std::min(inside, 1.0 - inside) < BOTH_SIDES ||
+      vessel.model.wall < RESOLVED * own ||
+      nearShare(points, STANDS_OFF * std::max(own, MODEL_ERROR), vessel.model) <
+          EXPLAINED)
+    return std::nullopt;
+  const double gain = 2.0 * problem.observations() *
+                      std::log(scatterOf(points, sigma, solid.model) /
+                               scatterOf(points, own, vessel.model));
+  ShapeCandidate c = candidateOf(vessel, problem);
+  c.bic += solid.cost - gain - c.cost;
+  c.cost = std::min(problem.observations(), solid.cost);
+  return c;
+}
+
 bool cheaper(const Vessel& a, const Vessel& b) {
   return a.cost < b.cost;
 }
@@ -179,10 +259,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
       best = &c;
   if (!best)
     return std::nullopt;
-  const bool evident =
-      problem.eye() ? hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND
-                    : best->cost > MISFIT * problem.observations();
-  if (!evident)
+  if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
   for (ShapeCandidate& c : candidates) {
     const double cost = hiddenPoints(problem, sigma, c.model).cost;
@@ -207,12 +284,18 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   const VesselFamily thorough(problem, problem.medium(), sigma);
   for (Vessel& v : found)
     v = thorough.fit(v, ITERATIONS);
-  return candidateOf(*std::min_element(found.begin(), found.end(), cheaper), problem);
+  const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
+  if (!(vessel.cost < 1e299))
+    return std::nullopt;
+  return problem.eye() ? candidateOf(vessel, problem)
+                       : fromAllRound(problem, sigma, vessel, *best);
 }
 
 void fitVesselAllPoints(const ViewProblem& problem,
                         double sigma,
                         ShapeCandidate& chosen) {
+  if (!problem.eye())
+    sigma = std::min(sigma, scatterOf(problem.all(), sigma, chosen.model));
   const Vessel fitted = VesselFamily(problem, problem.all(), sigma)
                             .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
   chosen.bic += fitted.cost - chosen.cost;
