@@ -27,7 +27,7 @@ constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
  * is to beat, and the factor over the best cut's. */
 constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
 /** \brief Share of a vessel's points that may be its handle's. */
-constexpr double MOST_OF_HANDLE = 0.12;
+constexpr double MOST_OF_HANDLE = 0.15;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief How far the best cut is moved, over half the piece's size. */
@@ -151,7 +151,9 @@ Split bestSplit(const PieceContext& context,
   if (standsOff(context, piece, best.first, best.second)) {
     fitPiece(context, best.first, Effort::FULL);
     fitHandle(context, best.second, piece.fit.fit.model);
-    best.score = best.first.score + best.second.score;
+    // a bottle's neck is no handle: without it the body is no vessel
+    if (best.first.fit.chosen.shape == ShapeClass::VESSEL)
+      best.score = best.first.score + best.second.score;
   }
   for (Split& s : splits)
     if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&

@@ -248,6 +248,32 @@ bool cheaper(const Vessel& a, const Vessel& b) {
   return a.cost < b.cost;
 }
 
+/** \brief Whether a vessel is better than all solids, which pay for what they hide. It
+ * is compared as scaleEvidence() will do. \param[in,out] solids where it is, their
+ * costs become those */
+bool beatsSolids(const ViewProblem& problem,
+                 double sigma,
+                 const ShapeCandidate& vessel,
+                 std::vector<ShapeCandidate>& solids) {
+  std::vector<ShapeCandidate> paying = solids;
+  double least = vessel.cost;
+  for (ShapeCandidate& c : paying) {
+    const double cost = hiddenPoints(problem, sigma, c.model).cost;
+    c.cost += cost;
+    c.bic += cost;
+    least = std::min(least, c.cost);
+  }
+  const double inflation = std::max(1.0, least / problem.observations());
+  const auto scaled = [&](const ShapeCandidate& c) {
+    return c.bic - c.cost * (1.0 - 1.0 / inflation);
+  };
+  for (const ShapeCandidate& c : paying)
+    if (!(scaled(vessel) < scaled(c)))
+      return false;
+  solids = std::move(paying);
+  return true;
+}
+
 } // namespace
 
 std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
@@ -261,11 +287,6 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     return std::nullopt;
   if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
-  for (ShapeCandidate& c : candidates) {
-    const double cost = hiddenPoints(problem, sigma, c.model).cost;
-    c.cost += cost;
-    c.bic += cost;
-  }
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
     axes.push_back(problem.up());
@@ -287,8 +308,12 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
   if (!(vessel.cost < 1e299))
     return std::nullopt;
-  return problem.eye() ? candidateOf(vessel, problem)
-                       : fromAllRound(problem, sigma, vessel, *best);
+  if (!problem.eye())
+    return fromAllRound(problem, sigma, vessel, *best);
+  const ShapeCandidate c = candidateOf(vessel, problem);
+  if (!beatsSolids(problem, sigma, c, candidates))
+    return std::nullopt;
+  return c;
 }
 
 void fitVesselAllPoints(const ViewProblem& problem,
