@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/object_piece.h"
 
+#include "parts/body_outline.h"
 #include "pcl_sq/line_intersection.h"
 #include "view_fit/plane_cost.h"
 #include "view_fit/view_problem.h"
@@ -85,8 +86,13 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
   Covered covered;
+  // beyond the outline of a body that is not plain no costly search along the ray
+  const BodyOutline outline =
+      body.isPlain() ? BodyOutline() : BodyOutline(body, o.camera.center, 24);
   for (const Eigen::Vector2d& p : o.free_space) {
     const Eigen::Vector3d ray = o.camera.ray(p);
+    if (outline.misses(ray))
+      continue;
     Eigen::Vector3d inside;
     if (!insideOnRay(body, o.camera.center, ray, inside))
       continue;
@@ -270,6 +276,7 @@ void fitPiece(const PieceContext& context,
       options.precision.push_back(context.precision[std::size_t(i)]);
   const bool general = effort == Effort::QUICK || effort == Effort::START;
   options.choose_shape = options.choose_shape && !general;
+  options.vessel = options.vessel && piece.stands; // a handle is none
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;

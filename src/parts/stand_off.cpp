@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // M22: a handle is what stands off a vessel.
+#include "parts/body_outline.h"
 #include "parts/object_piece.h"
-#include "pcl_sq/line_intersection.h"
+#include "pcl_sq/fit_superquadric.h"
 #include "sensor/local_quadric.h"
 
 #include <algorithm>
@@ -17,21 +18,13 @@ constexpr double SAME_SIDE = 0.5;         ///< cosine of 60 degrees around the a
 constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
 constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
 constexpr double MAX_COST = 9.2;          ///< of a point, as an outlier
+constexpr int PLANES = 48;                ///< of the body's outline
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
 Superquadric grown(Superquadric body, double margin) {
   body.semi_axes.array() += margin;
   return body;
-}
-
-bool meets(const Superquadric& body,
-           const PinholeCamera& camera,
-           const Eigen::Vector2d& p) {
-  LineInterval chord;
-  const Eigen::Vector3d ray = camera.ray(p);
-  return intersectLineBox(body, camera.center, ray, chord) &&
-         intersectLine(body, camera.center, ray, chord);
 }
 
 /** \brief Sets of columns that hang together, the largest first. */
@@ -122,11 +115,12 @@ bool standsOff(const PieceContext& context,
     return false;
   const Superquadric& body = piece.fit.fit.model;
   std::vector<int> off;
-  for (const int i : piece.points) {
-    const Eigen::Vector3d p = o.points.col(i);
-    if (!body.contains(p) && body.footPointDistance(p) > STANDS_OFF * context.noise)
-      off.push_back(i);
-  }
+  const Eigen::VectorXd distances =
+      surfaceDistances(body, gather(context, piece.points));
+  for (std::size_t k = 0; k < piece.points.size(); ++k)
+    if (distances[Eigen::Index(k)] > STANDS_OFF * context.noise &&
+        !body.contains(o.points.col(piece.points[k])))
+      off.push_back(piece.points[k]);
   off = oneSide(o.points, body, clustersOf(o.points, off, LINKED * o.extent));
   if (off.size() < MIN_POINTS || 2 * off.size() > piece.points.size())
     return false;
@@ -143,9 +137,13 @@ bool standsOff(const PieceContext& context,
     return true;
   // an outline beside the body is the handle's; where they meet it is nobody's
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy);
-  const Superquadric near = grown(body, EDGE * pixel), far = grown(body, JOINT * pixel);
+  const BodyOutline near(grown(body, EDGE * pixel), o.camera.center, PLANES),
+      far(grown(body, JOINT * pixel), o.camera.center, PLANES);
+  const auto meets = [&o](const BodyOutline& outline, const Eigen::Vector2d& p) {
+    return !outline.misses(o.camera.ray(p));
+  };
   for (const Eigen::Vector2d& p : piece.pixels)
-    (meets(near, o.camera, p) ? body_piece : handle).pixels.push_back(p);
+    (meets(near, p) ? body_piece : handle).pixels.push_back(p);
   const auto addForeign = [](Piece& to, const Eigen::Vector2d& pixel_of_other) {
     ContourPoint foreign;
     foreign.pixel = pixel_of_other;
@@ -153,13 +151,13 @@ bool standsOff(const PieceContext& context,
     to.contour.push_back(foreign);
   };
   for (const ContourPoint& p : piece.contour) {
-    if (!meets(near, o.camera, p.pixel))
+    if (!meets(near, p.pixel))
       handle.contour.push_back(p);
     else
       body_piece.contour.push_back(p);
   }
   for (const Eigen::Vector2d& p : handle.pixels)
-    if (meets(far, o.camera, p)) {
+    if (meets(far, p)) {
       addForeign(handle, p);
       addForeign(body_piece, p);
     }
@@ -170,10 +168,12 @@ double scatter(const PieceContext& context, const Piece& piece) {
   constexpr std::size_t MOST = 1000;
   constexpr double MEDIAN_OF_NORMAL = 0.6745;
   const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
-  std::vector<double> distances;
+  std::vector<int> some;
   for (std::size_t i = 0; i < piece.points.size(); i += step)
-    distances.push_back(std::abs(piece.fit.fit.model.footPointDistance(
-        context.observed.points.col(piece.points[i]))));
+    some.push_back(piece.points[i]);
+  const Eigen::VectorXd all =
+      surfaceDistances(piece.fit.fit.model, gather(context, some)).cwiseAbs();
+  std::vector<double> distances(all.data(), all.data() + all.size());
   return median(std::move(distances)) / MEDIAN_OF_NORMAL;
 }
 
