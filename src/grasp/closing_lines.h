@@ -66,10 +66,16 @@ private:
   void findOnPart(std::size_t part, std::vector<ClosingLine>& lines) const;
   /** \brief Lines across the wall of a hollow part, all around below its rim. */
   void findOnRim(std::size_t part, std::vector<ClosingLine>& lines) const;
-  /** \brief The line along the normal of a place of the outside. \return whether it
-   * comes out in the hollow */
+  /** \brief A normal turned towards level by a share of the friction cone's half angle,
+   * no farther than that. */
+  Eigen::Vector3d levelled(const Eigen::Vector3d& normal,
+                           const Eigen::Vector3d& up,
+                           double share) const;
+  /** \brief The line from the inside to a place of the outside along \a axis. \return
+   * whether it comes from the hollow, through the wall alone */
   bool throughWall(const Superquadric& part,
                    const Eigen::Vector3d& outside,
+                   const Eigen::Vector3d& axis,
                    ClosingLine& line) const;
 
   const MultiSuperquadric& object_;

@@ -15,27 +15,41 @@ constexpr int PLACES = 36; ///< around the rim
  * (GraspScores::robustness). */
 constexpr double DEPTH = 1.25;
 constexpr int BISECTIONS = 40;
+/** \brief Of a closing line from the normal towards level, over the friction cone's
+ * half angle: from the side of a sloping wall the table is in the way. */
+constexpr double TILTS[] = {0.0, 0.45, 0.9};
 
 } // namespace
 
+Eigen::Vector3d ClosingLines::levelled(const Eigen::Vector3d& normal,
+                                       const Eigen::Vector3d& up,
+                                       double share) const {
+  const Eigen::Vector3d level = (normal - up * up.dot(normal)).normalized();
+  const double slope = std::acos(std::clamp(normal.dot(level), -1.0, 1.0));
+  const double turn = std::min(slope, share * std::atan(options_.friction));
+  if (!(slope > 1e-6))
+    return normal;
+  return (std::sin(slope - turn) * normal + std::sin(turn) * level) / std::sin(slope);
+}
+
 bool ClosingLines::throughWall(const Superquadric& s,
                                const Eigen::Vector3d& outside,
+                               const Eigen::Vector3d& axis,
                                ClosingLine& line) const {
-  const Eigen::Vector3d normal = s.normal(outside);
-  // along the normal the wall is as thick as its slope makes it, or thinner
+  // across it the wall is as thick as its slope makes it, or thinner
   double solid = 0.0, hollow = 0.0;
   for (const double thickness : {1.05, 0.8, 0.6, 0.4, 0.2})
-    if (s.inHollow(outside - thickness * s.wall * normal))
+    if (s.inHollow(outside - thickness * s.wall * axis))
       hollow = thickness * s.wall;
   if (!(hollow > 0.0))
     return false;
   for (int i = 0; i < BISECTIONS; ++i) {
     const double middle = 0.5 * (solid + hollow);
-    (s.inHollow(outside - middle * normal) ? hollow : solid) = middle;
+    (s.inHollow(outside - middle * axis) ? hollow : solid) = middle;
   }
-  line.points = {outside - hollow * normal, outside};
-  line.normals = {s.normal(line.points[0]), normal};
-  line.axis = normal;
+  line.points = {outside - hollow * axis, outside};
+  line.normals = {s.normal(line.points[0]), s.normal(outside)};
+  line.axis = axis;
   line.width = hollow;
   line.at_rim = true;
   setSlope(line);
@@ -59,10 +73,13 @@ void ClosingLines::findOnRim(std::size_t part, std::vector<ClosingLine>& lines) 
       const double middle = 0.5 * (inside + outside);
       (s.contains(at(middle)) ? inside : outside) = middle;
     }
-    ClosingLine line;
-    line.parts = {part, part};
-    if (throughWall(s, at(outside), line))
-      lines.push_back(line);
+    const Eigen::Vector3d place = at(outside), normal = s.normal(place);
+    for (const double share : TILTS) {
+      ClosingLine line;
+      line.parts = {part, part};
+      if (throughWall(s, place, levelled(normal, s.rotation.col(2), share), line))
+        lines.push_back(line);
+    }
   }
 }
 

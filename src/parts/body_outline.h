@@ -9,8 +9,8 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Planes through the camera that touch a body all around: a ray beyond one of them
- * misses it, which costs no search along the ray. */
+/** \brief Planes through the camera that touch a body all around: a ray beyond one of
+ * them misses it, which costs no search along the ray. */
 class BodyOutline {
 public:
   /** \brief That of no body: no ray misses it for sure. */
