@@ -25,6 +25,7 @@ constexpr double UPRIGHT = 0.25;
 constexpr double FROM_ABOVE = 0.9; ///< of the normal's part along the optical axis
 constexpr double SEEN = 0.5;       ///< of what is around the foot, that is the plane
 constexpr double THROUGH = 0.15;   ///< of it, that lies behind the plane
+constexpr double PARAMETERS = 3.0; ///< of a plane: as many independent points fit any
 constexpr std::size_t FEWEST = 20; ///< points of a side of the foot that tell
 constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sensors
 
@@ -101,11 +102,11 @@ bool mayBeLevel(const Observation& o, const TableModel& plane) {
   return -normal.y() > UPRIGHT || -normal.z() > FROM_ABOVE;
 }
 
-/** \brief How well what is seen around the object's foot agrees with a plane below it,
- * 0 to 1; 0 where the plane does not go on around it, or is seen through. */
-double confidenceOf(const Observation& o,
-                    const Surroundings& around,
-                    const TableModel& plane) {
+/** \brief How many of the points around the object's foot lie on a plane below it; none
+ * where most are elsewhere, where the plane does not go on around the foot, or where it
+ * is seen through. */
+std::size_t
+supportOf(const Observation& o, const Surroundings& around, const TableModel& plane) {
   const ObservedObject& out = o.out;
   const Eigen::Vector3d middle = out.points.rowwise().mean();
   const Eigen::Vector3d foot = middle - plane.height(middle) * plane.normal;
@@ -135,9 +136,8 @@ double confidenceOf(const Observation& o,
   const Eigen::Vector3d normal = out.camera.rotation.transpose() * plane.normal;
   const bool from_above = -normal.y() <= UPRIGHT && !o.view.up;
   if (told < (from_above ? 4 : 2) || double(through) > THROUGH * double(on + through))
-    return 0.0;
-  const double share = double(on) / double(on + through + before);
-  return share;
+    return 0;
+  return double(on) > SEEN * double(on + through + before) ? on : 0;
 }
 
 } // namespace
@@ -147,8 +147,9 @@ void findTable(Observation& o, const CellRect& box) {
   std::vector<Eigen::Vector3d> rest;
   for (const Beside& b : around.points)
     rest.push_back(b.point);
-  double best = 0.0;
-  for (int attempt = 0; attempt < PLANES; ++attempt) {
+  std::size_t best = 0;
+  // until what is left could not hold more than the best one does
+  for (int attempt = 0; attempt < PLANES && rest.size() > best; ++attempt) {
     TableModel plane;
     if (!findPlane(rest, around.distance, {}, plane) &&
         !findPlane(rest, around.distance, SMALLER, plane))
@@ -166,12 +167,12 @@ void findTable(Observation& o, const CellRect& box) {
     plane.sigma = std::max(3.0 * plane.noise / std::sqrt(std::max(1.0, independent)),
                            0.1 * plane.noise);
     rest.swap(left);
-    if (!mayBeLevel(o, plane) ||
+    if (independent < PARAMETERS || !mayBeLevel(o, plane) ||
         relationTo(plane, o.out, reachOf(plane, o.out)) != TableRelation::UNDER)
       continue;
-    const double confidence = confidenceOf(o, around, plane);
-    if (confidence > std::max(best, SEEN)) {
-      best = confidence;
+    const std::size_t support = supportOf(o, around, plane);
+    if (support > best) {
+      best = support;
       o.out.table = plane;
     }
   }
