@@ -73,6 +73,14 @@ std::string Verdict::objection() const {
   return {};
 }
 
+double farthestOnSurface(const ObservedObject& observed, double noise) {
+  double own = noise;
+  if (observed.noise.size() > 0)
+    own =
+        std::sqrt(double(observed.noise.squaredNorm()) / double(observed.noise.size()));
+  return SIGMAS * own + MODEL_ERROR * observed.extent;
+}
+
 Verdict
 judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise) {
   Verdict verdict;

@@ -20,6 +20,11 @@ struct Verdict {
   std::string objection() const;
 };
 
+/** \brief Points farther from a model are not its surface [m]. \param[in] noise of the
+ * points where the view does not tell [m] */
+[[nodiscard]] double farthestOnSurface(const ObservedObject& observed, double noise);
+
+/** \param[in] noise as in farthestOnSurface() */
 [[nodiscard]] Verdict
 judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise);
 

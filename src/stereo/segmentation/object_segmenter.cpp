@@ -27,8 +27,9 @@ cv::Mat toBgr(const cv::Mat& image) {
   return bgr;
 }
 
-constexpr double AGREES = 0.85; // of pixels that depth and colours see alike
-constexpr double PIECE = 0.7;   // colours that see less of it than this see a piece
+constexpr double HALF_SEEN = 0.4; // of a box's area, by the box of what is found in it
+constexpr double AGREES = 0.85;   // of pixels that depth and colours see alike
+constexpr double PIECE = 0.7;     // colours that see less of it than this see a piece
 
 bool sameSize(const cv::Mat& image, const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
   return cloud.isOrganized() && image.cols == static_cast<int>(cloud.width) &&
@@ -126,14 +127,15 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
     const cv::Rect inner = inside - window.tl();
     const double right = std::min(agreement(mask(window), inner, depth_odds),
                                   separability(bgr(window), mask(window)));
-    if (right < AGREES) {
+    const bool piece = cv::boundingRect(mask).area() < HALF_SEEN * inside.area();
+    if (right < AGREES || piece) {
       cutJointly(bgr(window), inner, depth_odds, options_.iterations)
           .copyTo(mask(window));
       mask = largestComponents(mask);
     }
   }
   std::vector<std::string> notes;
-  const bool told = cv::boundingRect(mask).area() >= 0.4 * inside.area();
+  const bool told = cv::boundingRect(mask).area() >= HALF_SEEN * inside.area();
   if (!told) {
     notes.emplace_back("colours do not tell the object from its surroundings, so the "
                        "whole box is used without an outline; a mask of the object "
