@@ -16,9 +16,7 @@ constexpr int PLANES = 6; ///< largest ones among which the table is
 /** \brief A plane with a smaller share of what is left is found with as many trials as
  * make a miss unlikely: (1 - share^3)^n = 1 %. */
 constexpr PlaneDemand SMALLER = {0.1, 4600};
-/** \brief Lowest visible points of things lie so far above what they stand on, over
- * half their size: round bottoms hide where they touch. */
-constexpr double BOTTOM = 0.18;
+constexpr double RIM = 3.0; ///< pixels beside the outline that are left out, at most
 /** \brief Least uprightness of a table's normal in the image. A wall that faces a level
  * camera has none, and a camera that looks down makes it negative. */
 constexpr double UPRIGHT = 0.25;
@@ -38,9 +36,22 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/** \brief Largest height at which the lowest points of what stands on it may be. */
+/** \brief Largest height at which the lowest visible points of what stands on a table
+ * may be; bottoms are no rounder than a ball's. Seen from an angle a above the table,
+ * the lowest point on a ball's limb is r (1 - cos a) high; a width d in the image
+ * beside the limb is left out, whose inner edge lies sqrt(2 r d) nearer to the camera;
+ * and a fiftieth of the disc's area at its lower edge is r / 10 high. */
 double reachOf(const TableModel& table, const ObservedObject& observed) {
-  return BOTTOM * observed.extent + 3.0 * std::hypot(table.sigma, table.noise);
+  constexpr double FIFTIETH = 0.1;
+  const PinholeCamera& camera = observed.camera;
+  const Eigen::Vector3d ray =
+      (observed.points.rowwise().mean() - camera.center).normalized();
+  const double sine = std::abs(table.normal.dot(ray));
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+  const double r = observed.extent;
+  const double d = RIM * observed.depth / std::sqrt(camera.fx * camera.fy);
+  return r * (1.0 - cosine + FIFTIETH) + d * cosine + std::sqrt(2.0 * r * d) * sine +
+         3.0 * std::hypot(table.sigma, table.noise);
 }
 
 TableRelation
