@@ -2,6 +2,7 @@
 #include "parts/verdict.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "union/surface_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +44,22 @@ void judgePoints(const MultiSuperquadric& model,
   if (n == 0)
     return;
   Eigen::Index explained = 0;
+  // the nearest place of a wall costs a search; of a solid of revolution, which vessels
+  // are, the distance in the half plane is the same
+  const bool open = std::any_of(
+      model.parts.begin(), model.parts.end(), [](const auto& s) { return s.isCut(); });
   std::vector<double> distances;
+  if (open)
+    distances = smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT);
+  else
+    for (Eigen::Index i = 0; i < n; ++i)
+      distances.push_back(model.euclideanDistance(o.points.col(i)));
   for (Eigen::Index i = 0; i < n; ++i) {
+    double& distance = distances[std::size_t(i)];
+    distance = std::abs(distance);
     const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
     const double aside = o.sideways.size() > 0 ? double(o.sideways[i]) : 0.0;
-    const double limit = SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
-    distances.push_back(std::abs(model.euclideanDistance(o.points.col(i))));
-    explained += distances.back() <= limit;
+    explained += distance <= SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
   }
   verdict.points = double(explained) / double(n);
   const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
