@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/open_mesh.h"
 #include "mesh/surface_remesher.h"
 
 #include <algorithm>
@@ -47,6 +48,13 @@ double longestSide(const MultiSuperquadric& model) {
 TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
   if (model.empty())
     return {};
+  if (hasOpenParts(model)) {
+    // chords of a circle of the object's size miss it by no more
+    const double chords = std::sqrt(longestSide(model) / tolerance);
+    return addOpenParts(model,
+                        std::clamp(static_cast<int>(chords), 8, 128),
+                        remeshUnion(withoutOpenParts(model), tolerance));
+  }
   PartMesh start;
   if (model.size() == 1) {
     start.mesh = meshSuperquadric(model.parts[0], START_DIVISIONS);
@@ -69,6 +77,10 @@ TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
 TriangleMesh MultiSuperquadric::meshUnion(int resolution) const {
   if (empty())
     return {};
+  if (detail::hasOpenParts(*this))
+    return detail::addOpenParts(*this,
+                                std::clamp(resolution / 2, 8, 128),
+                                detail::withoutOpenParts(*this).meshUnion(resolution));
   const detail::PartMesh start = detail::closedMarch(*this, resolution);
   if (!detail::isClosed(start.mesh))
     return start.mesh;
