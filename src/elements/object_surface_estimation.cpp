@@ -3,6 +3,7 @@
 #include "elements/surface_estimator.h"
 #include "parts/verdict.h"
 #include "pcl_sq/impl/grasp_point_filter.hpp"
+#include "union/surface_statistics.h"
 
 namespace pcl_sq::detail {
 
@@ -59,10 +60,13 @@ bool SurfaceEstimator::crop() {
 
 void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) {
   const double limit = farthestOnSurface(report_.view, noise);
+  const Eigen::Matrix3Xd points = gather(object_).cast<double>();
+  const std::vector<double> distances =
+      smallestResiduals(model, points, kernels::Residual::FOOT_POINT);
   pcl::Indices near;
-  for (const pcl::index_t i : object_)
-    if (std::abs(model.euclideanDistance(input_.points.col(i).cast<double>())) <= limit)
-      near.push_back(i);
+  for (std::size_t i = 0; i < object_.size(); ++i)
+    if (std::abs(distances[i]) <= limit)
+      near.push_back(object_[i]);
   const std::size_t strays = object_.size() - near.size();
   if (near.empty() || 20 * strays < object_.size()) {
     if (!near.empty())
