@@ -294,13 +294,12 @@ bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
 std::vector<Piece>
 splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gain) {
   const bool exactly = context.options.parts > 0;
-  if (whole.fit.chosen.shape != ShapeClass::VESSEL)
-    return splitWholeCloud(context, std::move(whole), wanted, exactly, min_gain);
   ObjectFitOptions options = context.options;
   options.fit.vessel = false;
   const PieceContext solids{
       context.observed, options, context.noise, context.precision, context.limits};
-  fitPiece(solids, whole, Effort::AGAIN);
+  if (whole.fit.chosen.shape == ShapeClass::VESSEL)
+    fitPiece(solids, whole, Effort::AGAIN);
   return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
 }
 
