@@ -2,6 +2,8 @@
 #include "mesh/surface_remesher.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 
 namespace pcl_sq {
 
@@ -9,13 +11,14 @@ namespace detail {
 
 namespace {
 
-constexpr int START_RESOLUTION = 40; ///< shows how parts meet; splitting does the rest
-constexpr int START_DIVISIONS = 24;  ///< of a single part
-constexpr double WELDED = 0.35;      ///< of a cell: vertices so near become one
 constexpr int TRIES = 4;
-/** \brief Share of the tolerance that the samples on a triangle may use: between them
- * the surface may be a little farther. */
-constexpr double SAMPLED = 0.75;
+/** \brief Shares of the tolerance: of the fine mesh that is coarsened, and of the
+ * samples on a triangle, between which the surface may be a little farther. */
+constexpr double MARCHED = 0.75, SAMPLED = 0.75;
+constexpr double FLAT_CELLS = 16.0; ///< along the longest side where nothing bends
+constexpr double WELDED = 0.18;     ///< of a cell: vertices so near become one
+constexpr double BENT = 0.25;       ///< of a cell may a surface be off
+constexpr double ODD = 0.973;       ///< so that no face touches a corner of the grid
 
 bool isClosed(const TriangleMesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ways, back;
@@ -31,10 +34,11 @@ bool isClosed(const TriangleMesh& mesh) {
 
 /** \brief Where surfaces touch a grid's corners to the last bit the clipped polygons
  * may not meet; another grid does not touch there. */
-PartMesh closedMarch(const MultiSuperquadric& model, int resolution) {
-  PartMesh mesh = marchUnion(model, resolution);
+PartMesh
+closedMarch(const MultiSuperquadric& model, double tolerance, double longest) {
+  PartMesh mesh = marchUnion(model, tolerance, longest *= ODD);
   for (int i = 1; i < TRIES && !isClosed(mesh.mesh); ++i)
-    mesh = marchUnion(model, resolution + i);
+    mesh = marchUnion(model, tolerance, longest *= ODD);
   return mesh;
 }
 
@@ -47,20 +51,18 @@ double longestSide(const MultiSuperquadric& model) {
 TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
   if (model.empty())
     return {};
-  PartMesh start;
-  if (model.size() == 1) {
-    start.mesh = meshSuperquadric(model.parts[0], START_DIVISIONS);
-    start.part.assign(start.mesh.triangles.size(), 0);
-  } else {
-    start = closedMarch(model, START_RESOLUTION);
-  }
+  const PartMesh start =
+      closedMarch(model, MARCHED * tolerance, longestSide(model) / FLAT_CELLS);
   if (!isClosed(start.mesh))
     return start.mesh;
+auto now=[]{return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();};
+  double t0=now();
   SurfaceRemesher remesher(start, model, SAMPLED * tolerance);
-  if (model.size() > 1)
-    remesher.weld(WELDED * longestSide(model) / START_RESOLUTION);
-  remesher.refine();
+  remesher.weld(MARCHED * tolerance);
+  double t1=now();
+  fprintf(stderr,"start %zu weld %zu %.2f\n",start.mesh.triangles.size(),remesher.mesh().triangles.size(),t1-t0);
   remesher.coarsen();
+  fprintf(stderr,"coarsen %.2f\n",now()-t1);
   return remesher.mesh();
 }
 
@@ -69,12 +71,12 @@ TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
 TriangleMesh MultiSuperquadric::meshUnion(int resolution) const {
   if (empty())
     return {};
-  const detail::PartMesh start = detail::closedMarch(*this, resolution);
+  const double cell = detail::longestSide(*this) / std::clamp(resolution, 8, 512);
+  const detail::PartMesh start = detail::closedMarch(*this, detail::BENT * cell, cell);
   if (!detail::isClosed(start.mesh))
     return start.mesh;
-  const double cell = detail::longestSide(*this) / resolution;
   detail::SurfaceRemesher remesher(start, *this, cell);
-  remesher.weld(0.5 * detail::WELDED * cell); // the resolution asked for is kept
+  remesher.weld(detail::WELDED * cell); // the resolution asked for is kept
   return remesher.mesh();
 }
 
