@@ -2,8 +2,6 @@
 #include "mesh/surface_remesher.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 
 namespace pcl_sq {
 
@@ -34,8 +32,7 @@ bool isClosed(const TriangleMesh& mesh) {
 
 /** \brief Where surfaces touch a grid's corners to the last bit the clipped polygons
  * may not meet; another grid does not touch there. */
-PartMesh
-closedMarch(const MultiSuperquadric& model, double tolerance, double longest) {
+PartMesh closedMarch(const MultiSuperquadric& model, double tolerance, double longest) {
   PartMesh mesh = marchUnion(model, tolerance, longest *= ODD);
   for (int i = 1; i < TRIES && !isClosed(mesh.mesh); ++i)
     mesh = marchUnion(model, tolerance, longest *= ODD);
@@ -55,14 +52,9 @@ TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
       closedMarch(model, MARCHED * tolerance, longestSide(model) / FLAT_CELLS);
   if (!isClosed(start.mesh))
     return start.mesh;
-auto now=[]{return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();};
-  double t0=now();
   SurfaceRemesher remesher(start, model, SAMPLED * tolerance);
   remesher.weld(MARCHED * tolerance);
-  double t1=now();
-  fprintf(stderr,"start %zu weld %zu %.2f\n",start.mesh.triangles.size(),remesher.mesh().triangles.size(),t1-t0);
   remesher.coarsen();
-  fprintf(stderr,"coarsen %.2f\n",now()-t1);
   return remesher.mesh();
 }
 

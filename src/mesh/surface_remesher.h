@@ -5,6 +5,11 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Cosine of the largest angle between a triangle and the surface behind it, 15
+ * degrees: two facets that share a rounding then differ by less than 30. Parts that
+ * meet at less than that have no seam to keep. */
+constexpr double ALONG = 0.966;
+
 /** \brief Makes a mesh of a union's surface as coarse as a tolerance permits: collapses
  * edges, shortest first, and flips them, as long as the triangles keep near to the
  * surface and along it, and near to all vertices that went before. Vertices stay where
@@ -41,9 +46,8 @@ private:
   bool facesOut(const Corners& triangle, std::size_t part) const;
   /** \brief Whether a point is near to the union's surface; the normal is that of the
    * part named, or of the one that is nearest. */
-  bool isNear(const Eigen::Vector3d& point,
-              std::size_t part,
-              Eigen::Vector3d& normal) const;
+  bool
+  isNear(const Eigen::Vector3d& point, std::size_t part, Eigen::Vector3d& normal) const;
   /** \brief Whether a triangle is near to the surface and along it. */
   bool fits(const Corners& triangle, std::size_t part) const;
   bool keepsSeam(Index from, Index to) const;
@@ -64,7 +68,7 @@ private:
   EditMesh mesh_;
   const MultiSuperquadric& model_;
   double tolerance_;
-  mutable std::vector<Plane> planes_; ///< kept for the sake of its memory
+  mutable std::vector<Plane> planes_;              ///< kept for the sake of its memory
   std::vector<std::vector<Eigen::Vector3d>> lost_; ///< vertices that went, by triangle
 };
 

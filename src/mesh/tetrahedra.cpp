@@ -13,16 +13,15 @@ namespace {
  * those of the first. */
 constexpr double APART = 1e-9;
 constexpr int EDGES[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-constexpr std::size_t MOST = 1500000; ///< tetrahedra, where bisecting ends
-constexpr double DIAGONAL = 1.74; ///< of a cube
+constexpr std::size_t MOST = 3000000; ///< tetrahedra, where bisecting ends
+constexpr double GAP = 1.5;           ///< largest over mean, where a gauge bends evenly
+constexpr double DIAGONAL = 1.74;     ///< of a cube
 constexpr double NONE_HERE = -1.0;
 constexpr double ALL_INSIDE = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-Tetrahedra::Tetrahedra(const MultiSuperquadric& model,
-                       double tolerance,
-                       double longest)
+Tetrahedra::Tetrahedra(const MultiSuperquadric& model, double tolerance, double longest)
     : model_(model), straight_(model.parts), tolerance_(tolerance), longest_(longest) {
   for (Superquadric& part : straight_)
     part.kx = part.ky = 0.0;
@@ -84,12 +83,11 @@ void Tetrahedra::addCubes(double side) {
 
 double Tetrahedra::error(const std::array<Index, 4>& vertices, std::size_t part) {
   const Superquadric& body = model_.parts[part];
-  double smallest = ALL_INSIDE, largest = -ALL_INSIDE, length = 0.0, bend = 0.0;
+  double largest = -ALL_INSIDE, length = 0.0, bend = 0.0;
   std::array<double, 4> offsets{};
   std::array<Eigen::Vector3d, 4> straight;
   for (int i = 0; i < 4; ++i) {
     offsets[i] = offset(vertices[i], part);
-    smallest = std::min(smallest, offsets[i]);
     largest = std::max(largest, offsets[i]);
     straight[i] = body.untapered(position(vertices[i]));
   }
@@ -97,12 +95,12 @@ double Tetrahedra::error(const std::array<Index, 4>& vertices, std::size_t part)
     const Eigen::Vector3d &p = position(vertices[a]), &q = position(vertices[b]);
     length = std::max(length, (p - q).norm());
     if (body.isTapered()) // how far the edge bends where the body is straight
-      bend = std::max(bend,
-                      (body.untapered(0.5 * (p + q)) - 0.5 * (straight[a] + straight[b]))
-                          .norm());
+      bend = std::max(
+          bend,
+          (body.untapered(0.5 * (p + q)) - 0.5 * (straight[a] + straight[b])).norm());
   }
-  // twice the bend of the edges covers that of the middle; no gauge is steeper than that
-  // of an octahedron
+  // twice the bend of the edges covers that of the middle; no gauge is steeper than
+  // that of an octahedron
   const double slack = 2.0 * bend * std::sqrt(3.0) / body.semi_axes.minCoeff();
   if (largest + slack <= 0.0)
     return ALL_INSIDE;
@@ -119,8 +117,11 @@ double Tetrahedra::error(const std::array<Index, 4>& vertices, std::size_t part)
   }
   if (lowest > 0.0)
     return NONE_HERE;
-  // of a quadratic function the largest gap is up to twice the mean of those at corners
-  return 2.0 * std::max(gap, 0.0) / std::max(slope.norm(), (largest - smallest) / length);
+  // Of a quadratic function the largest gap is one to two times the mean of those at
+  // the corners. Going uphill makes up for it at least as fast as the slope says; where
+  // that is not known, on ridges of thin parts, nothing in here is farther than the
+  // sides are long.
+  return std::min(GAP * std::max(gap, 0.0) / slope.norm(), length);
 }
 
 void Tetrahedra::add(const std::array<Index, 4>& vertices,
@@ -174,7 +175,8 @@ void Tetrahedra::bisect(std::size_t index) {
   Edge& edge = edges_[key(v[0], v[d])];
   if (edge.middle == NONE) {
     edge.middle = addVertex(0.5 * (position(v[0]) + position(v[d])));
-    for (std::uint64_t use = edge.first; use != NO_USE; use = all_[use / 6].next[use % 6])
+    for (std::uint64_t use = edge.first; use != NO_USE;
+         use = all_[use / 6].next[use % 6])
       if (!all_[use / 6].gone)
         open_.push_back(use / 6);
   }

@@ -30,9 +30,7 @@ public:
    * grid has a vertex at the origin of its frame
    * \param[in] tolerance largest distance of polygons and surface [m]
    * \param[in] longest side of the largest cube that may stay [m] */
-  Tetrahedra(const MultiSuperquadric& model,
-             double tolerance,
-             double longest);
+  Tetrahedra(const MultiSuperquadric& model, double tolerance, double longest);
 
   const Eigen::Vector3d& position(Index vertex) const { return positions_[vertex]; }
   /** \brief G - 1 of a part at a vertex, negative inside. */

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marching tetrahedra: in each the gauges of all parts are taken to be linear, so that a
-// part's surface is a polygon, and what of it lies in other parts is clipped off: the
+// Marching tetrahedra: in each the gauges of all parts are taken to be linear, so that
+// a part's surface is a polygon, and what of it lies in other parts is clipped off: the
 // surface is closed, and where parts meet there are edges.
 #include "mesh/union_mesh.h"
 
 #include "mesh/tetrahedra.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 namespace pcl_sq::detail {
@@ -130,10 +129,8 @@ private:
   }
 
   /** \brief What of a polygon of part k lies outside of part j. */
-  static std::vector<Node> clip(const std::vector<Node>& nodes,
-                                const Cell& t,
-                                std::size_t j,
-                                std::size_t k) {
+  static std::vector<Node>
+  clip(const std::vector<Node>& nodes, const Cell& t, std::size_t j, std::size_t k) {
     std::vector<Node> kept;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Node &a = nodes[i], &b = nodes[(i + 1) % nodes.size()];
@@ -158,8 +155,7 @@ private:
     return kept;
   }
 
-  std::uint32_t
-  vertex(const Cell& t, const Node& node, const Eigen::Vector3d& linear) {
+  std::uint32_t vertex(const Cell& t, const Node& node, const Eigen::Vector3d& linear) {
     Origin origin;
     for (int i = 0; i < 4; ++i)
       origin.corners[i] = node.weights[i] != 0.0 ? t.ids[i] : NO_VERTEX;
@@ -204,10 +200,7 @@ private:
     if (std::abs(model_.parts[other].gauge(p) - 1.0) < 1e-9)
       return p;
     parts.push_back(other); // linear gauges saw it outside
-    if(moveOntoParts()) return p;
-    Eigen::Vector3d q=model_.parts[other].closestPoint(p);
-    if((q-linear).norm()>1e-4||std::abs(model_.gauge(q)-1)>1e-3) {fprintf(stderr,"move %g of %g parts",(q-linear).norm(),reach*2); for(auto k:parts) fprintf(stderr," %zu(%g %g)",k,model_.parts[k].gauge(linear)-1,model_.parts[k].kx); fprintf(stderr,"\n");}
-    return q;
+    return moveOntoParts() ? p : model_.parts[other].closestPoint(p);
   }
 
   std::size_t deepest(const Eigen::Vector3d& p) const {
@@ -229,8 +222,7 @@ private:
 
 } // namespace
 
-PartMesh
-marchUnion(const MultiSuperquadric& model, double tolerance, double longest) {
+PartMesh marchUnion(const MultiSuperquadric& model, double tolerance, double longest) {
   if (model.empty())
     return {};
   // ridges of the largest part are on faces of the grid

@@ -15,8 +15,7 @@ struct PartMesh {
 /** \brief The surface of a union by marching tetrahedra, vertices on it.
  * \param[in] tolerance largest distance of mesh and surface [m]
  * \param[in] longest side of the cells where the surface is flat [m] */
-PartMesh
-marchUnion(const MultiSuperquadric& model, double tolerance, double longest);
+PartMesh marchUnion(const MultiSuperquadric& model, double tolerance, double longest);
 
 /** \brief A closed mesh of the union's surface with few triangles.
  * \param[in] tolerance largest distance of mesh and surface [m] */

@@ -85,12 +85,15 @@ inline double meshDistance(const TriangleMesh& mesh, const Eigen::Vector3d& poin
 struct MeshErrors {
   double outward = 0.0; ///< largest distance of the mesh's points to the surface [m]
   double inward = 0.0;  ///< largest distance of the surface's points to the mesh [m]
-  double askew = 0.0;   ///< share of the area more than 20 degrees off the surface near it
+  double askew =
+      0.0; ///< share of the area more than 20 degrees off the surface near it
 };
 
 /** \brief At \a count points of either, uniform in area. */
-inline MeshErrors
-errorsOf(const MultiSuperquadric& model, const TriangleMesh& mesh, double reach, int count) {
+inline MeshErrors errorsOf(const MultiSuperquadric& model,
+                           const TriangleMesh& mesh,
+                           double reach,
+                           int count) {
   Random random(7);
   MeshErrors errors;
   for (const MeshPoint& p : pointsOn(mesh, count, random)) {
@@ -118,7 +121,8 @@ errorsOf(const MultiSuperquadric& model, const TriangleMesh& mesh, double reach,
   }
   for (int i = 0; i < count; ++i) {
     const std::size_t k = std::size_t(
-        std::lower_bound(areas.begin(), areas.end() - 1, area * random.uniform(0.0, 1.0)) -
+        std::lower_bound(
+            areas.begin(), areas.end() - 1, area * random.uniform(0.0, 1.0)) -
         areas.begin());
     const Superquadric& part = model.parts[k];
     Eigen::Vector3d p = pointsOn(parts[k], 1, random)[0].place;
