@@ -197,7 +197,6 @@ int main(int argc, char** argv) {
                      "a model. Clouds in parallel");
         app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
-        app::addTaperOption(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")

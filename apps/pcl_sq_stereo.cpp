@@ -22,6 +22,10 @@ using namespace pcl_sq::app;
 
 namespace {
 
+/** \brief Noise and dilation of an outline that was found: images are cut along edges
+ * that are blurred over about three pixels [px]. */
+constexpr double FOUND_OUTLINE = 1.5, FOUND_DILATION = 1.0;
+
 struct Outputs {
   std::string cloud, object_cloud, disparity, panel, mask, histogram;
 };
@@ -181,9 +185,26 @@ void dropStrays(const FrontResult& front, LoadedCloud& scene) {
   }
 }
 
+/** \brief The pair's own noise as that of its points: Z^2 / (f b) a pixel. */
+void tellNoise(const StereoResult& stereo, ViewOptions& view) {
+  if (stereo.disparity_sigma.empty())
+    return;
+  view.correlation = stereo.correlation;
+  const double per_pixel = 1.0 / (stereo.intrinsics.fx * stereo.intrinsics.baseline);
+  const auto* sigma = stereo.disparity_sigma.ptr<float>();
+  view.noise.resize(static_cast<Eigen::Index>(stereo.cloud->size()));
+  for (Eigen::Index i = 0; i < view.noise.size(); ++i) {
+    const auto z = double((*stereo.cloud)[static_cast<std::size_t>(i)].z);
+    view.noise[i] = std::isfinite(z)
+                        ? static_cast<float>(z * z * per_pixel * double(sigma[i]))
+                        : 1.0F;
+  }
+}
+
 /** \brief Tells the model half what the images gave. The best mode looks at the whole
  * scene through the outline, the paper's chain at the object's points in their box. */
 void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
+  const bool painted = !model.mask.empty();
   model.roi.clear();
   model.mask.clear();
   const CameraIntrinsics& k = front.stereo.intrinsics;
@@ -193,6 +214,11 @@ void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
       for (const Eigen::Vector3d& corner : {front.region.min, front.region.max})
         model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
     return;
+  }
+  tellNoise(front.stereo, model.estimation.view);
+  if (!painted) { // what colours and depth find is no painted mask
+    model.estimation.view.mask_sigma = FOUND_OUTLINE;
+    model.estimation.view.mask_dilation = FOUND_DILATION;
   }
   const cv::Mat& mask = front.segment.mask;
   if (mask.empty()) {
@@ -229,6 +255,8 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
 
 int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
   const bool best = model.estimation.decomposition == Decomposition::PARTS;
+  front_options.stereo.matcher =
+      front_options.matcher.value_or(best ? StereoMatcher::SGBM : StereoMatcher::BM);
   front_options.stereo.refine = front_options.refine.value_or(best);
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;

@@ -2,7 +2,7 @@
 // Scores the single-view fit on the generated scenes (gen_scene.py: folders with
 // cloud.pcd, mask.png, truth.json) and on bare clouds (gen.py, gen_multi.py: .xyz and
 // .json). Usage: single_view_evaluation [--no-mask] [--no-view] [--parts] [-v]
-//                [--taper] [--kind NAME] FOLDER...
+//                [--no-taper] [--kind NAME] FOLDER...
 #include "pcl_sq/fit_object.h"
 #include "truth_scores.h"
 
@@ -229,8 +229,8 @@ int main(int argc, char** argv) {
       settings.mask = false;
     else if (a == "--no-view")
       settings.view = false;
-    else if (a == "--taper")
-      settings.fit.fit.taper = true;
+    else if (a == "--no-taper")
+      settings.fit.fit.taper = false;
     else if (a == "--single")
       settings.fit.max_parts = 1;
     else if (a == "--max-parts" && i + 1 < argc)

@@ -84,6 +84,18 @@ cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags
   return image;
 }
 
+cv::Mat readMask(const std::string& path) {
+  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
+  double brightest = 0.0;
+  cv::minMaxLoc(image, nullptr, &brightest);
+  if (brightest > 1.0 && brightest < 128.0) // too dark for a picture: numbers of things
+    throw Failure(
+        "'" + path + "' holds values up to " + std::to_string(int(brightest)) +
+        " only, as labels do; give a mask of one object, its pixels white (or "
+        "1) and the others black.");
+  return image > 0.5 * std::max(brightest, 1.0);
+}
+
 void claimImage(const std::string& option, const std::string& path) {
   if (path.empty())
     return;

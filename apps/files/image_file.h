@@ -14,6 +14,11 @@ cv::Mat readImage(const std::string& path, int flags);
 /** \brief As readImage(), of a file's bytes. \param[in] name for messages */
 cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags);
 
+/** \brief Reads a mask: 255 where a pixel is brighter than half the brightest, so that
+ * 0 and 1 tell as much as black and white; 0 elsewhere. Labels of several things are
+ * refused. \throw Failure */
+cv::Mat readMask(const std::string& path);
+
 /** \brief claimOutput() for a picture: PNG into pipes and devices, otherwise as the
  * ending says. \throw UsageError too, if no picture has that ending */
 void claimImage(const std::string& option, const std::string& path);

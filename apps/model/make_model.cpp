@@ -182,7 +182,7 @@ ModelResult makeNearModel(const LoadedCloud& input,
   settings.view = makeView(options);
   if (selection.table)
     settings.view.table = selection.table;
-  settings.object_fit.fit.taper = options.taper;
+  settings.object_fit.fit.taper = options.taper.value_or(true);
   std::string why;
   if (!settings.isValid(&why))
     throw Failure(why + ".");
@@ -216,7 +216,7 @@ ModelResult makeNearModel(const LoadedCloud& input,
   file.finite_points = input.finite_points;
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
-  if (options.taper)
+  if (options.taper.value_or(false))
     timer.run("taper", [&] { return addTaper(input, options, result); });
   double total = 0.0;
   for (const auto& [stage, ms] : timings)

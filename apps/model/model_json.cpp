@@ -24,8 +24,7 @@ std::string optionsToJson(const ModelOptions& options) {
   if (e.decomposition == Decomposition::PARTS) {
     json["parts"] = e.object_fit.parts;
     json["max_parts"] = e.object_fit.max_parts;
-    if (options.taper)
-      json["taper"] = true;
+    json["taper"] = options.taper.value_or(true);
     if (!options.mask.empty())
       json["mask"] = options.mask;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -43,7 +42,7 @@ std::string optionsToJson(const ModelOptions& options) {
                                                     : "mean";
   json["exclusive"] = e.exclusive_points;
   json["remove_plane"] = options.remove_plane;
-  if (options.taper)
+  if (options.taper.value_or(false))
     json["taper"] = true;
   if (!options.roi.empty())
     json["roi"] = options.roi;
@@ -102,8 +101,11 @@ std::string reportToJson(const ModelResult& result) {
         {"deviations", {result.taper->kx_deviation, result.taper->ky_deviation}}};
   json["grasp_points"] = report.grasp_indices.size();
   const Eigen::Vector3d size = sizeOf(result).sides;
-  return nlohmann::ordered_json{{"size", numbers(size)}, {"report", json}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  nlohmann::ordered_json all = {{"size", numbers(size)}};
+  if (report.view.points.cols() > 0)
+    all["confidence"] = report.confidence;
+  all["report"] = json;
+  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace pcl_sq::app

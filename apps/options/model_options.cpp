@@ -116,6 +116,7 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
   cli.add_option("-o,--output", options.output, "Model as JSON; -: standard output")
       ->type_name("FILE");
   addViewOptions(cli, options);
+  addTaperOption(cli, options);
   addFitOptions(cli, options.estimation);
   cli.add_option("--roi", options.roi, "Object in the image [px] (organized clouds)")
       ->expected(4)

@@ -28,7 +28,7 @@ struct ModelOptions {
   std::string mask;               ///< PNG, or empty
   std::vector<double> intrinsics; ///< fx, fy, cx, cy [px], or empty
   FrameOptions frame;
-  bool taper = false; ///< where the points demand one
+  std::optional<bool> taper; ///< where the points demand one; with parts by default
 
   std::string output; ///< model JSON
   std::string mesh;
@@ -39,7 +39,7 @@ struct ModelOptions {
 /** \brief Adds the options to a program. */
 void addModelOptions(CLI::App& cli, ModelOptions& options);
 
-/** \brief --taper, for programs all of whose outputs can respect one. */
+/** \brief --taper and --no-taper. */
 void addTaperOption(CLI::App& cli, ModelOptions& options);
 
 /** \brief Refuses what cannot respect a taper. \throw UsageError */

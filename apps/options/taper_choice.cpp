@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --taper: parts whose section grows along their axis, where the data demand it.
+// --taper: bodies whose section grows along their axis, where the data demand it.
 #include "command_line/app.h"
 #include "options/model_options.h"
 
@@ -18,14 +18,16 @@ Eigen::Matrix3Xd pointsAt(const LoadedCloud& input, const pcl::Indices& indices)
 } // namespace
 
 void addTaperOption(CLI::App& cli, ModelOptions& options) {
-  cli.add_flag("--taper",
-               options.taper,
-               "Let sections grow along the axis (Solina & Bajcsy 1990) where the data "
-               "demand it; with --decomposition parts or none");
+  cli.add_flag_function(
+      "--taper,!--no-taper",
+      [&options](std::int64_t count) { options.taper = count > 0; },
+      "Let sections grow along the axis (Solina & Bajcsy 1990) where the data demand "
+      "it; "
+      "the default with --decomposition parts, possible with none; --no-taper: never");
 }
 
 void checkTaper(const ModelOptions& options) {
-  if (!options.taper)
+  if (!options.taper.value_or(false))
     return;
   const EstimationOptions& e = options.estimation;
   const bool one = e.decomposition == Decomposition::NONE && e.fit == FitMode::FULL;

@@ -8,7 +8,7 @@
 #ifdef PCL_SQ_HAVE_OPENCV
 #include "files/image_file.h"
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #endif
 
 #include <cmath>
@@ -19,12 +19,12 @@ namespace pcl_sq::app {
 namespace {
 
 #ifdef PCL_SQ_HAVE_OPENCV
-CellMask readMask(const std::string& path) {
-  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
+CellMask maskOf(const std::string& path) {
+  const cv::Mat image = readMask(path);
   CellMask mask(image.cols, image.rows);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)
-      mask.set(x, y, image.at<unsigned char>(y, x) > 127);
+      mask.set(x, y, image.at<unsigned char>(y, x) > 0);
   return mask;
 }
 #endif
@@ -90,7 +90,7 @@ ViewOptions makeView(const ModelOptions& options) {
   view.up = options.frame.upOf();
 #ifdef PCL_SQ_HAVE_OPENCV
   if (!options.mask.empty())
-    view.mask = readMask(options.mask);
+    view.mask = maskOf(options.mask);
 #endif
   return view;
 }

@@ -72,6 +72,8 @@ void printSummary(const ModelResult& result) {
               size.on_table  ? " (width x depth x height above the table)"
               : size.upright ? " (width x depth x height)"
                              : "");
+  if (result.report.view.points.cols() > 0)
+    std::printf("  confidence %.0f %%\n", 100.0 * result.report.confidence);
   printParts(result);
   if (result.taper)
     std::printf("  a taper is %s by the points (margin %.1f, %.0f would do)\n",

@@ -71,14 +71,14 @@ Segment
 findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
-    const cv::Mat mask = readImage(o.mask, cv::IMREAD_GRAYSCALE);
+    const cv::Mat mask = readMask(o.mask);
     if (mask.cols != static_cast<int>(s.cloud->width) ||
         mask.rows != static_cast<int>(s.cloud->height))
       throw Failure("the mask and the image differ in size; give a mask of " +
                     std::to_string(s.cloud->width) + " x " +
                     std::to_string(s.cloud->height) +
                     " px, of the rectified left image.");
-    segment.mask = mask > 127;
+    segment.mask = mask;
     segment.rect = boundingRect(segment.mask);
     if (segment.rect.empty())
       throw Failure("the mask is empty; paint the object white.");
@@ -183,11 +183,13 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
                  "Distance of the cameras of a rectified pair [m], with --intrinsics "
                  "instead of --calib")
       ->check(positiveNumber(1000.0));
-  addChoice<StereoMatcher>(cli,
-                           "--matcher",
-                           o.stereo.matcher,
-                           {{"bm", StereoMatcher::BM}, {"sgbm", StereoMatcher::SGBM}},
-                           "Block matching or semi-global");
+  cli.add_option_function<std::string>(
+         "--matcher",
+         [&o](const std::string& name) {
+           o.matcher = name == "bm" ? StereoMatcher::BM : StereoMatcher::SGBM;
+         },
+         "Block matching or semi-global; default: bm in the paper's mode only")
+      ->check(oneOf({"bm", "sgbm"}));
   cli.add_option(
          "--block-size", o.stereo.block_size, "Matched window [px], odd; 0: auto")
       ->check(wholeNumber(0, 51))

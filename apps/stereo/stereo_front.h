@@ -20,6 +20,8 @@ struct FrontOptions {
   double calib_unit = 1.0;        ///< of the calibration's lengths [m]
   double baseline = 0.0;          ///< with \a intrinsics instead of \a calib [m]
   StereoOptions stereo;
+  /** \brief Not given: semi-global in the best mode, block matching in the paper's. */
+  std::optional<StereoMatcher> matcher;
   std::optional<bool> refine;     ///< of the disparities; not given: in the best mode
   std::string depth;              ///< depth image instead of a right one
   double depth_scale = 0.0;       ///< length of its steps [m]; 0: by its kind

@@ -43,6 +43,12 @@ struct EstimationReport {
   /** \brief D of the union, Eq. (7), semi-axes in metres, for the object's points. */
   double distortion = 0.0;
   double rms_distance = 0.0; ///< of the object's points to the union [m]
+  /** \brief How far the model explains what was seen, 0 to 1: the share of the points
+   * that lie on it to within their noise, times that of the object's pixels that it
+   * covers, times that of its pixels through which no background is seen. Below a half,
+   * and where fewer than four in five of the pixels are covered, there is no model but
+   * a failure (Decomposition::PARTS). */
+  double confidence = 0.0;
   std::vector<std::pair<std::string, double>> timings_ms; ///< stage, [ms], in order
 };
 

@@ -39,6 +39,9 @@ struct PCL_SQ_EXPORTS ViewOptions {
   bool object_is_region = false;
   double mask_sigma = 0.7;     ///< noise of the mask's outline [px], (0, 20]
   double mask_dilation = 0.35; ///< sigma of its unknown dilation [px], [0, 20]
+  /** \brief Standard deviation of each point of the cloud along its ray [m], as a
+   * stereo rig's measured one; empty: what the points show by themselves. */
+  Eigen::VectorXf noise;
   /** \brief Side of the square of pixels that share their error [px], [1, 100]. */
   double correlation = 7.0;
 
@@ -66,6 +69,8 @@ struct PCL_SQ_EXPORTS ObservedObject {
    * one pixel beside it: the pixel's size times the sine of the slant [m]. Matching
    * windows and depth cameras err so by about a pixel. Empty for bare points. */
   Eigen::VectorXf sideways;
+  /** \brief Of each point ViewOptions::noise; empty where it is not known. */
+  Eigen::VectorXf noise;
   PinholeCamera camera; ///< real, or virtual for bare points
   std::vector<ContourPoint> contour;
   OutlineSource outline = OutlineSource::NONE;

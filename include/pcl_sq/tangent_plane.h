@@ -12,7 +12,7 @@ struct PCL_SQ_EXPORTS TangentPlane {
   double offset = 0.0;                               ///< [m]
   double sigma = 1e-3; ///< standard deviation of the offset [m], > 0
 
-  /** \brief normal . center + h(normal) - offset [m]: how far the body sticks out.
+  /** \brief normal . center + h(normal) - offset [m] (M6): how far the body sticks out.
    * Zero for a tangent plane. */
   double residual(const Superquadric& body) const {
     return normal.dot(body.center) + body.support(normal) - offset;

@@ -66,7 +66,7 @@ struct PCL_SQ_EXPORTS ViewFitOptions {
    * its cost can then be compared with that of other parts of the same points. */
   bool all_points = false;
   /** \brief Whether TAPERED is among the families. */
-  bool taper = false;
+  bool taper = true;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
 
@@ -83,8 +83,8 @@ struct ViewFit {
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
 
-  /** \brief The best model without a taper: where another search goes on from. */
-  const Superquadric& straight() const;
+  /** \brief The best candidate without a taper: where another search goes on from. */
+  const ShapeCandidate& straight() const;
 };
 
 /** \brief Fits one superquadric to points and to what its silhouette and its support

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/start_shapes.h"
 
+#include "solver/descriptions.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -63,42 +65,10 @@ Eigen::Matrix3d principalAxesOf(const UnitPoints& points) {
 Superquadric inBox(const Box& box, int shift, double epsilon) {
   Superquadric s;
   s.center = box.middle;
-  for (int k = 0; k < 3; ++k) {
-    s.rotation.col(k) = box.axes.col((k + shift) % 3);
-    s.semi_axes[k] = box.half[(k + shift) % 3];
-  }
+  s.rotation = box.axes;
+  s.semi_axes = box.half;
   s.epsilon1 = s.epsilon2 = epsilon;
-  return s;
-}
-
-Superquadric turned(Superquadric s, const Eigen::Vector3d& axis) {
-  s.rotation *= Eigen::AngleAxisd(0.25 * M_PI, axis).toRotationMatrix();
-  return s;
-}
-
-/** \brief Axes in cyclic order, exponents exchanged: exact where both are equal. */
-Superquadric axesShifted(const Superquadric& m, int shift) {
-  Superquadric s = m;
-  for (int k = 0; k < 3; ++k) {
-    s.rotation.col(k) = m.rotation.col((k + shift) % 3);
-    s.semi_axes[k] = m.semi_axes[(k + shift) % 3];
-  }
-  std::swap(s.epsilon1, s.epsilon2);
-  return s;
-}
-
-/** \brief Cross-section turned by 45 degrees with e2 -> 2 - e2: exact between a square
- * and a square on its corner, whose sizes differ by sqrt(2). */
-Superquadric dual(const Superquadric& m) {
-  Superquadric s = turned(m, Eigen::Vector3d::UnitZ());
-  const auto growth = [](double e) {
-    return (1.0 - std::sqrt(2.0)) * e + std::sqrt(2.0);
-  };
-  const double factor =
-      m.epsilon2 <= 1.0 ? growth(m.epsilon2) : 1.0 / growth(2.0 - m.epsilon2);
-  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
-  s.epsilon2 = std::max(2.0 - m.epsilon2, Superquadric::MIN_EPSILON);
-  return s;
+  return axesShifted(s, shift);
 }
 
 } // namespace
@@ -109,7 +79,7 @@ std::vector<Superquadric> startShapes(const UnitPoints& dense) {
   for (int shift = 0; shift < 3; ++shift) {
     starts.push_back(inBox(box, shift, 1.0));
     starts.push_back(inBox(box, shift, BOX));
-    starts.push_back(turned(starts.back(), Eigen::Vector3d::UnitZ()));
+    starts.push_back(eighthTurn(starts.back()));
   }
   return starts;
 }
@@ -137,13 +107,13 @@ std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense) {
 }
 
 std::vector<Superquadric> otherDescriptions(const Superquadric& model) {
+  const Superquadric first = withAxis(model, 0), second = withAxis(model, 1);
   const Superquadric own_dual = dual(model);
-  const Superquadric first = axesShifted(model, 1), second = axesShifted(model, 2);
   return {first,
           second,
           own_dual,
-          axesShifted(own_dual, 1),
-          axesShifted(own_dual, 2),
+          withAxis(own_dual, 0),
+          withAxis(own_dual, 1),
           dual(first),
           dual(second)};
 }

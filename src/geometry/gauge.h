@@ -8,7 +8,7 @@
 
 namespace pcl_sq::detail {
 
-/** \brief ln of the nested p-norm G and everything its derivatives need.
+/** \brief ln of the nested p-norm G (M1) and everything its derivatives need.
  *
  * With X = |x|/a1 etc., the inner norm h = ||(X, Y)||_{2/e2} and the outer norm
  * G = ||(h, Z)||_{2/e1}, the weights are the shares of each term in its sum:

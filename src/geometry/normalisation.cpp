@@ -224,6 +224,8 @@ kernels::Shape toShape(const Superquadric& s) {
   }
   shape.epsilon1 = static_cast<float>(s.epsilon1);
   shape.epsilon2 = static_cast<float>(s.epsilon2);
+  shape.kx = static_cast<float>(s.kx);
+  shape.ky = static_cast<float>(s.ky);
   return shape;
 }
 

@@ -24,7 +24,8 @@ double dualEpsilon(double epsilon) {
   return std::max(2.0 - epsilon, 1e-6);
 }
 
-/** \brief Support function in the own frame; the argument of the dual gauge is a_k u_k.
+/** \brief Support function in the own frame (M3); the argument of the dual gauge is a_k
+ * u_k.
  */
 LogGauge logSupport(const Superquadric& s, const Eigen::Vector3d& u) {
   return detail::logGauge(

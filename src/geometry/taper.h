@@ -10,8 +10,8 @@ namespace pcl_sq::detail {
 
 using Vector13 = Eigen::Matrix<double, 13, 1>;
 
-/** \brief Growth of the section at a height z of the own frame, never below that of the
- * largest taper; exactly one without a taper. */
+/** \brief Growth of the section at a height z of the own frame (M2), never below that
+ * of the largest taper; exactly one without a taper. */
 inline Eigen::Vector3d growth(const Superquadric& s, double z) {
   if (!s.isTapered())
     return Eigen::Vector3d::Ones();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The support function of a tapered superquadric, by slices.
+// The support function of a tapered superquadric (M3), by slices.
 #include "geometry/taper.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // one file per instruction set, which defines PCL_SQ_LANES.
 #pragma once
 
-#include "kernel_rows.h"
+#include "kernel_tapered.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ inline Float residual(const Lanes& l, const Vector& y) {
 }
 
 /** \brief The Jacobian's columns of one vector of points, see PARAMETERS. */
-inline void storeDerivatives(const Row& r, float (&rows)[ROWS][BLOCK], std::size_t p) {
+inline void storeDerivatives(const Row& r, float (*rows)[BLOCK], std::size_t p) {
   const Vector& g = r.spatial;
   store(rows[0] + p, -g.x);
   store(rows[1] + p, -g.y);
@@ -69,11 +69,12 @@ inline Weight weight(Float square, Float s, Float c, Float inverse_s, Float log_
 
 /** \brief Adds the products of one block's rows, kept as sums per lane.
  * \param[in] end of the block's points; zero up to the next whole vector */
+template <int R>
 inline void
-addProducts(const float (&rows)[ROWS][BLOCK], std::size_t end, float (*lanes)[LANES]) {
-  static_assert(ROWS % 3 == 0, "tiles of three rows");
-  for (int i = 0; i < ROWS; i += 3)
-    for (int j = i; j < ROWS; j += 3) {
+addProducts(const float (&rows)[R][BLOCK], std::size_t end, float (*lanes)[LANES]) {
+  static_assert(R % 3 == 0, "tiles of three rows");
+  for (int i = 0; i < R; i += 3)
+    for (int j = i; j < R; j += 3) {
       Float s[9];
       for (int k = 0; k < 9; ++k)
         s[k] = load(lanes[k]);
@@ -98,13 +99,17 @@ addProducts(const float (&rows)[ROWS][BLOCK], std::size_t end, float (*lanes)[LA
     }
 }
 
-constexpr int TILES = (ROWS / 3) * (ROWS / 3 + 1) / 2;
+/** \brief Products of that many rows: the tiles of the upper triangle. */
+constexpr int productsOf(int rows) {
+  return 9 * (rows / 3) * (rows / 3 + 1) / 2;
+}
 
 /** \brief Moves the lanes' sums into double precision and clears them. */
-inline void flush(float (&lanes)[9 * TILES][LANES], double (&products)[ROWS][ROWS]) {
+template <int R>
+inline void flush(float (&lanes)[productsOf(R)][LANES], double (&products)[R][R]) {
   int tile = 0;
-  for (int i = 0; i < ROWS; i += 3)
-    for (int j = i; j < ROWS; j += 3, ++tile)
+  for (int i = 0; i < R; i += 3)
+    for (int j = i; j < R; j += 3, ++tile)
       for (int k = 0; k < 9; ++k) {
         float* s = lanes[9 * tile + k];
         products[i + k / 3][j + k % 3] += static_cast<double>(sum(load(s)));
@@ -112,13 +117,20 @@ inline void flush(float (&lanes)[9 * TILES][LANES], double (&products)[ROWS][ROW
       }
 }
 
-template <Residual KIND, bool ROBUST, bool DERIVATIVES>
-void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums& out) {
+/** \tparam R TAPERED_ROWS for a tapered body, which knows FOOT_POINT only */
+template <int R, Residual KIND, bool ROBUST, bool DERIVATIVES>
+void accumulate(const Points& points,
+                const Shape& shape,
+                const Mixture& m,
+                SumsOf<R>& out) {
+  constexpr bool TAPERED = R == TAPERED_ROWS;
+  constexpr int RESIDUAL = TAPERED ? TAPERED_PARAMETERS : PARAMETERS; // its row
   constexpr std::size_t FLUSH = 16; // blocks whose sums stay in single precision
-  alignas(64) float rows[ROWS][BLOCK];
-  alignas(64) float lanes[9 * TILES][LANES] = {};
+  alignas(64) float rows[R][BLOCK];
+  alignas(64) float lanes[productsOf(R)][LANES] = {};
   alignas(64) float feet[4][BLOCK];
   const Lanes l = spread(shape);
+  const Taper taper = {all(shape.kx), all(shape.ky)};
   const Float s = all(m.inverse_two_sigma_squared), c = all(m.outlier);
   const Float inverse_s = all(1.0F / m.inverse_two_sigma_squared);
   const Float log_full = log(all(1.0F) + c);
@@ -128,17 +140,19 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
   for (std::size_t begin = 0; begin < points.count; begin += BLOCK) {
     const std::size_t rest = points.count - begin;
     const std::size_t size = rest < BLOCK ? rest : BLOCK;
-    if constexpr (KIND == Residual::FOOT_POINT)
+    if constexpr (KIND == Residual::FOOT_POINT && !TAPERED)
       footBlock(l, points, begin, feet);
     std::size_t p = 0;
     for (; p < size; p += LANES) {
       const Vector y = local(l, points, begin + p);
       Row r;
-      if constexpr (KIND == Residual::FOOT_POINT)
+      if constexpr (TAPERED)
+        r = taperedRow(l, taper, y, rows, p);
+      else if constexpr (KIND == Residual::FOOT_POINT)
         r = footRow(l, y, loadFoot(feet, p));
       else
         r = row<KIND>(l, y);
-      store(rows[11] + p, r.residual);
+      store(rows[RESIDUAL] + p, r.residual);
       if (DERIVATIVES)
         storeDerivatives(r, rows, p);
     }
@@ -148,14 +162,16 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
       const Float valid = select(
           index + all(static_cast<float>(p)) < valid_count, all(1.0F), all(0.0F));
       const Float q = points.precision ? load(points.precision + begin + p) : all(1.0F);
-      const Float r = load(rows[11] + p);
+      const Float r = load(rows[RESIDUAL] + p);
       const Weight w = weight<ROBUST>(q * r * r, s, c, inverse_s, log_full);
       cost += valid * w.cost;
       share += valid * w.share;
       if (DERIVATIVES) {
         const Float root = sqrt(valid * w.share * q);
-        for (int i = 0; i < ROWS; ++i)
+        for (int i = 0; i <= RESIDUAL; ++i)
           store(rows[i] + p, root * load(rows[i] + p));
+        if constexpr (TAPERED)
+          store(rows[R - 1] + p, Float{});
       }
     }
     out.cost += static_cast<double>(sum(cost));
@@ -173,9 +189,20 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
 template <Residual KIND, bool DERIVATIVES>
 void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums& out) {
   if (m.outlier > 0.0F)
-    accumulate<KIND, true, DERIVATIVES>(points, shape, m, out);
+    accumulate<ROWS, KIND, true, DERIVATIVES>(points, shape, m, out);
   else
-    accumulate<KIND, false, DERIVATIVES>(points, shape, m, out);
+    accumulate<ROWS, KIND, false, DERIVATIVES>(points, shape, m, out);
+}
+
+void taperedEquations(const Points& points,
+                      const Shape& shape,
+                      const Mixture& m,
+                      SumsOf<TAPERED_ROWS>& out) {
+  constexpr Residual FOOT = Residual::FOOT_POINT;
+  if (m.outlier > 0.0F)
+    accumulate<TAPERED_ROWS, FOOT, true, true>(points, shape, m, out);
+  else
+    accumulate<TAPERED_ROWS, FOOT, false, true>(points, shape, m, out);
 }
 
 template <bool DERIVATIVES>
@@ -260,28 +287,61 @@ inline void planeBlock(const Lanes& dual,
   }
 }
 
-void planeSums(const Planes& planes, const Shape& shape, PlaneSums& out) {
-  alignas(64) float rows[ROWS][BLOCK];
-  alignas(64) float lanes[9 * TILES][LANES] = {};
-  const Lanes dual = spreadDual(shape);
-  Float shared[ROWS] = {};
+/** \brief The same for tapered bodies, found by search: see taperedSupport(). */
+inline void planeBlock(const TaperedSupport& support,
+                       const Planes& planes,
+                       std::size_t begin,
+                       std::size_t size,
+                       float (&rows)[TAPERED_ROWS][BLOCK]) {
+  for (std::size_t p = 0; p < size; p += LANES)
+    support.row(planes, begin + p, rows, p);
+}
+
+template <typename Support, int R>
+void planeSums(const Support& support, const Planes& planes, PlaneSumsOf<R>& out) {
+  alignas(64) float rows[R][BLOCK];
+  alignas(64) float lanes[productsOf(R)][LANES] = {};
+  Float shared[R] = {};
   __builtin_memset(&out, 0, sizeof(out));
   for (std::size_t begin = 0; begin < planes.count; begin += BLOCK) {
     const std::size_t rest = planes.count - begin;
     const std::size_t size = rest < BLOCK ? rest : BLOCK;
-    planeBlock(dual, planes, begin, size, rows);
+    planeBlock(support, planes, begin, size, rows);
     for (std::size_t p = 0; p < size; p += LANES)
-      for (int i = 0; i < ROWS; ++i)
+      for (int i = 0; i < R; ++i)
         shared[i] += load(planes.shared + begin + p) * load(rows[i] + p);
     addProducts(rows, size, lanes);
   }
   flush(lanes, out.products);
-  for (int i = 0; i < ROWS; ++i)
+  for (int i = 0; i < R; ++i)
     out.shared[i] = static_cast<double>(sum(shared[i]));
 }
 
+void straightPlanes(const Planes& planes, const Shape& shape, PlaneSums& out) {
+  planeSums(spreadDual(shape), planes, out);
+}
+
+void taperedPlanes(const Planes& planes,
+                   const Shape& shape,
+                   PlaneSumsOf<TAPERED_ROWS>& out) {
+  planeSums(TaperedSupport(shape), planes, out);
+}
+
+void taperedRows(const Planes& planes,
+                 const Shape& shape,
+                 float (&rows)[TAPERED_ROWS][BLOCK]) {
+  planeBlock(TaperedSupport(shape), planes, 0, planes.count, rows);
+}
+
 constexpr Kernels table(const char* name) {
-  return {name, &accumulate<true>, &residuals, &accumulate<false>, &planeSums};
+  return {name,
+          &accumulate<true>,
+          &residuals,
+          &accumulate<false>,
+          &straightPlanes,
+          &taperedEquations,
+          &taperedPlanes,
+          &taperedRows};
 }
 
 } // namespace

@@ -173,7 +173,8 @@ inline Row row(const Lanes& l, const Vector& y) {
   return r;
 }
 
-/** \brief Tangent plane at the radial projection, and the foot of the perpendicular. */
+/** \brief Tangent plane at the radial projection, and the foot of the perpendicular
+ * (M4). */
 struct Foot {
   Vector at;
   Float outside; ///< 1 - 1/G

@@ -14,6 +14,10 @@ constexpr std::size_t BLOCK = 128;
  * e2: the order of Superquadric::logGaugeJacobian(). */
 constexpr int PARAMETERS = 11;
 constexpr int ROWS = PARAMETERS + 1; ///< the Jacobian's columns and the residual
+/** \brief The same with kx and ky behind. */
+constexpr int TAPERED_PARAMETERS = 13;
+/** \brief The Jacobian's columns, the residual, and one of zeros: loops take threes. */
+constexpr int TAPERED_ROWS = TAPERED_PARAMETERS + 2;
 
 /** \brief Points of size about one around the origin, so that floats suffice. */
 struct Points {
@@ -31,6 +35,7 @@ struct Shape {
   float offset[3];       ///< R^T center
   float inverse_axis[3]; ///< 1 / a
   float epsilon1, epsilon2;
+  float kx, ky; ///< the taper; only the loops for tapered bodies read it
 };
 
 enum class Residual {
@@ -41,7 +46,7 @@ enum class Residual {
   SOLINA       ///< G^2 - 1 = F^e1 - 1 (Solina & Bajcsy 1990)
 };
 
-/** \brief Mixture of a Gaussian on the surface with uniform outliers.
+/** \brief Mixture of a Gaussian on the surface with uniform outliers (M5).
  *
  * The share of the Gaussian is p = exp(-s r^2) / (exp(-s r^2) + c); the cost of a point
  * -ln((exp(-s r^2) + c) / (1 + c)) / s, which is r^2 for c = 0. */
@@ -50,12 +55,15 @@ struct Mixture {
   float outlier = 0.0F;                   ///< c; 0: plain least squares
 };
 
-/** \brief Sums over the points. With p the mixture's share and q the precision. */
-struct Sums {
-  double products[ROWS][ROWS]; ///< sum p q j j^T, j = (Jacobian, r); upper triangle
-  double cost;                 ///< sum of the points' costs
-  double share;                ///< sum p: the expected number of inliers
+/** \brief Sums over the points. With p the mixture's share and q the precision.
+ * \tparam R ROWS or TAPERED_ROWS */
+template <int R>
+struct SumsOf {
+  double products[R][R]; ///< sum p q j j^T, j = (Jacobian, r); upper triangle
+  double cost;           ///< sum of the points' costs
+  double share;          ///< sum p: the expected number of inliers
 };
+using Sums = SumsOf<ROWS>;
 
 /** \brief Planes normal . p = offset, in the frame of the points.
  *
@@ -73,10 +81,12 @@ struct Planes {
 };
 
 /** \brief Sums over planes; j = (Jacobian, r) as in Sums. */
-struct PlaneSums {
-  double products[ROWS][ROWS]; ///< sum j j^T; upper triangle
-  double shared[ROWS];         ///< sum of j times the plane's share
+template <int R>
+struct PlaneSumsOf {
+  double products[R][R]; ///< sum j j^T; upper triangle
+  double shared[R];      ///< sum of j times the plane's share
 };
+using PlaneSums = PlaneSumsOf<ROWS>;
 
 /** \brief One implementation of the loops. */
 struct Kernels {
@@ -87,6 +97,14 @@ struct Kernels {
   /** \brief Cost and share only. */
   void (*evaluate)(const Points&, const Shape&, Residual, const Mixture&, Sums&);
   void (*planes)(const Planes&, const Shape&, PlaneSums&);
+  /** \brief normalEquations() of the distance to the foot point of a tapered body. */
+  void (*taperedEquations)(const Points&,
+                           const Shape&,
+                           const Mixture&,
+                           SumsOf<TAPERED_ROWS>&);
+  void (*taperedPlanes)(const Planes&, const Shape&, PlaneSumsOf<TAPERED_ROWS>&);
+  /** \brief The rows themselves, of at most a block of planes. */
+  void (*taperedRows)(const Planes&, const Shape&, float (&rows)[TAPERED_ROWS][BLOCK]);
 };
 
 enum class Isa { PORTABLE, SSE2, AVX2, AVX512 };

@@ -25,6 +25,8 @@ bool ViewOptions::isValid(std::string* why) const {
   if (table &&
       (!(std::abs(table->normal.norm() - 1.0) < 1e-3) || !std::isfinite(table->offset)))
     return refuse("the table's normal must have length one and its offset be finite");
+  if (noise.size() > 0 && !(noise.minCoeff() > 0.0F && noise.allFinite()))
+    return refuse("the points' noise must be finite and positive");
   if (!(mask_sigma > 0.0 && mask_sigma <= 20.0))
     return refuse("mask_sigma must lie in (0, 20]");
   if (!(mask_dilation >= 0.0 && mask_dilation <= 20.0))
@@ -48,6 +50,38 @@ const char* toString(OutlineSource source) {
   return "unknown";
 }
 
+namespace {
+
+/** \brief How well the edge of what hides an object, or of the image, says where it
+ * ends, over its size: most of it is seen, or nobody would have pointed at it. */
+constexpr double HIDDEN_SIGMA = 0.05;
+
+/** \brief Where the outline is not the object's own, at an occluder or the border of
+ * the image, nobody knows how it goes on: a model ends about there unless evidence says
+ * more. */
+void addHiddenEnds(const ObservedObject& object,
+                   int lines,
+                   std::vector<TangentPlane>& limits) {
+  if (object.pixels.cells.empty())
+    return;
+  std::vector<ContourPoint> all = object.contour;
+  for (ContourPoint& p : all)
+    p.own = true;
+  const std::vector<SilhouetteLine> known = silhouetteLines(object.contour, lines);
+  for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
+    const bool is_known =
+        std::any_of(known.begin(), known.end(), [&](const SilhouetteLine& other) {
+          return other.direction == line.direction;
+        });
+    if (is_known)
+      continue;
+    limits.push_back(tangentPlane(object.camera, line, 1.0, object.depth));
+    limits.back().sigma = HIDDEN_SIGMA * object.extent;
+  }
+}
+
+} // namespace
+
 ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_points,
                                       int lines,
                                       bool on_table) const {
@@ -60,6 +94,7 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
+  addHiddenEnds(*this, lines, e.limits);
   if (table) {
     e.up = table->normal;
     TangentPlane below;

@@ -74,6 +74,11 @@ void choosePoints(Observation& o,
   o.out.points.resize(3, static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i)
     o.out.points.col(static_cast<Eigen::Index>(i)) = o.at(chosen[i]);
+  if (o.view.noise.size() == o.points.cols()) {
+    o.out.noise.resize(static_cast<Eigen::Index>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      o.out.noise[static_cast<Eigen::Index>(i)] = o.view.noise[chosen[i]];
+  }
   const double independent = area / (o.view.correlation * o.view.correlation) *
                              double(finite) / std::max(1.0, double(pixels));
   o.out.effective_points = std::min(double(chosen.size()), independent);

@@ -1,79 +1,189 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table under an object: found around it in its image, checked against its points.
+// The table under an object: a plane around it in its image that it can stand on,
+// checked against its points.
 #include "observe/observe_parts.h"
+#include "table/table_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int PLANES = 3; ///< largest ones among which the table is
+constexpr int PLANES = 6; ///< largest ones among which the table is
+/** \brief A plane with a smaller share of what is left is found with as many trials as
+ * make a miss unlikely: (1 - share^3)^n = 1 %. */
+constexpr PlaneDemand SMALLER = {0.1, 4600};
+/** \brief Lowest visible points of things lie so far above what they stand on, over
+ * half their size: round bottoms hide where they touch. */
+constexpr double BOTTOM = 0.18;
+/** \brief Least uprightness of a table's normal in the image. A wall that faces a level
+ * camera has none, and a camera that looks down makes it negative. */
+constexpr double UPRIGHT = 0.25;
+constexpr double FROM_ABOVE = 0.9; ///< of the normal's part along the optical axis
+constexpr double SEEN = 0.5;       ///< of what is around the foot, that is the plane
+constexpr double THROUGH = 0.15;   ///< of it, that lies behind the plane
+constexpr std::size_t FEWEST = 20; ///< points of a side of the foot that tell
+constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sensors
 
 /** \brief Where a plane is, as seen from the object. */
 enum class TableRelation { UNDER, ABOVE, FAR };
 
-TableRelation relationTo(const TableModel& table, const ObservedObject& observed) {
+double quantile(std::vector<double> values, double share) {
+  const auto place = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/** \brief Largest height at which the lowest points of what stands on it may be. */
+double reachOf(const TableModel& table, const ObservedObject& observed) {
+  return BOTTOM * observed.extent + 3.0 * std::hypot(table.sigma, table.noise);
+}
+
+TableRelation
+relationTo(const TableModel& table, const ObservedObject& observed, double highest) {
   const double tolerance = 5.0 * table.sigma + 0.1 * observed.extent;
   std::vector<double> heights;
   for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
     heights.push_back(table.height(observed.points.col(i)));
-  const auto at = [&heights](std::size_t index) {
-    const auto place = heights.begin() + std::ptrdiff_t(index);
-    std::nth_element(heights.begin(), place, heights.end());
-    return *place;
-  };
-  if (at(heights.size() / 5) < -tolerance)
+  if (quantile(heights, 0.2) < -tolerance)
     return TableRelation::ABOVE;
-  return at(heights.size() / 50) > observed.extent ? TableRelation::FAR
-                                                   : TableRelation::UNDER;
+  return quantile(heights, 0.02) > highest ? TableRelation::FAR : TableRelation::UNDER;
 }
 
-} // namespace
+/** \brief A point beside the object. */
+struct Beside {
+  Eigen::Vector3d point;
+  Eigen::Vector2d pixel;
+};
 
-void findTable(Observation& o, const CellRect& box) {
+/** \brief Points around the object, and how they err. */
+struct Surroundings {
+  std::vector<Beside> points;
+  double distance = 0.0; ///< of a plane's points to it, at most [m]
+  double apart = 1.0;    ///< pixels between two of them
+};
+
+Surroundings lookAround(const Observation& o, const CellRect& box) {
+  Surroundings s;
   const int margin = std::max(20, (box.width + box.height - 2) / 3);
-  std::vector<Eigen::Vector3d> around;
   const int x0 = std::max(0, box.x - margin),
             x1 = std::min(o.width - 1, box.x + box.width - 1 + margin);
   const int y0 = std::max(0, box.y - margin / 3);
   const int y1 = std::min(o.height - 1, box.y + box.height - 1 + margin);
   const int step = std::max(
       1, static_cast<int>(std::sqrt(double(x1 - x0 + 1) * (y1 - y0 + 1) / 6000.0)));
+  s.apart = step;
+  std::vector<double> noise;
   for (int y = y0; y <= y1; y += step)
     for (int x = x0; x <= x1; x += step) {
       const int c = y * o.width + x;
       bool near = false; // the rim has the object's depth
       for (int d = -4; d <= 4 && !near; d += 2)
         near = o.out.pixels(x + d, y) || o.out.pixels(x, y + d);
-      if (!near && o.finite(c))
-        around.push_back(o.at(c));
+      if (near || !o.finite(c))
+        continue;
+      s.points.push_back({o.at(c), Eigen::Vector2d(x, y)});
+      if (o.view.noise.size() > 0)
+        noise.push_back(double(o.view.noise[c]));
     }
-  // the largest plane may be a wall behind the object
-  for (int attempt = 0; attempt < PLANES; ++attempt) {
-    TableModel table;
-    if (!findPlane(around, o.out.camera.center, 0.008 * o.out.depth, table))
-      break;
-    if (relationTo(table, o.out) == TableRelation::UNDER) {
-      o.out.table = table;
-      return;
-    }
-    std::vector<Eigen::Vector3d> rest;
-    for (const Eigen::Vector3d& p : around)
-      if (std::abs(table.height(p)) > 0.016 * o.out.depth)
-        rest.push_back(p);
-    around.swap(rest);
+  s.distance = noise.empty() ? NOISE * o.out.depth : 3.0 * quantile(noise, 0.5);
+  return s;
+}
+
+/** \brief Whether a plane may be a table by its slope alone. */
+bool mayBeLevel(const Observation& o, const TableModel& plane) {
+  const Eigen::Vector3d normal = o.out.camera.rotation.transpose() * plane.normal;
+  if (o.view.up)
+    return plane.normal.dot(o.view.up->normalized()) > std::sqrt(0.5);
+  return -normal.y() > UPRIGHT || -normal.z() > FROM_ABOVE;
+}
+
+/** \brief How well what is seen around the object's foot agrees with a plane below it,
+ * 0 to 1; 0 where the plane does not go on around it, or is seen through. */
+double confidenceOf(const Observation& o,
+                    const Surroundings& around,
+                    const TableModel& plane) {
+  const ObservedObject& out = o.out;
+  const Eigen::Vector3d middle = out.points.rowwise().mean();
+  const Eigen::Vector3d foot = middle - plane.height(middle) * plane.normal;
+  const Eigen::Vector2d seen_foot = out.camera.project(foot);
+  const double near = 2.0 * out.extent;
+  std::size_t on = 0, through = 0, before = 0;
+  std::array<std::size_t, 4> sides = {0, 0, 0, 0}; // left, right, above, below
+  for (const Beside& b : around.points) {
+    const Eigen::Vector3d ray = out.camera.ray(b.pixel);
+    const double towards = plane.normal.dot(ray);
+    const double there = -plane.height(out.camera.center) / towards;
+    if (!(towards < 0.0) || (out.camera.center + there * ray - foot).norm() > near)
+      continue;
+    const double height = plane.height(b.point);
+    if (std::abs(height) <= around.distance) {
+      ++on;
+      const Eigen::Vector2d d = b.pixel - seen_foot;
+      ++sides[std::abs(d.x()) > std::abs(d.y()) ? (d.x() < 0.0 ? 0 : 1)
+                                                : (d.y() < 0.0 ? 2 : 3)];
+    } else if (height < 0.0)
+      ++through;
+    else
+      ++before;
   }
-  o.out.notes.push_back(
-      "no table was found under the object, so its lower end is where its points end; "
-      "give the table if there is one");
+  const auto told =
+      std::count_if(sides.begin(), sides.end(), [](auto n) { return n >= FEWEST; });
+  const Eigen::Vector3d normal = out.camera.rotation.transpose() * plane.normal;
+  const bool from_above = -normal.y() <= UPRIGHT && !o.view.up;
+  if (told < (from_above ? 4 : 2) || double(through) > THROUGH * double(on + through))
+    return 0.0;
+  const double share = double(on) / double(on + through + before);
+  return share;
+}
+
+} // namespace
+
+void findTable(Observation& o, const CellRect& box) {
+  const Surroundings around = lookAround(o, box);
+  std::vector<Eigen::Vector3d> rest;
+  for (const Beside& b : around.points)
+    rest.push_back(b.point);
+  double best = 0.0;
+  for (int attempt = 0; attempt < PLANES; ++attempt) {
+    TableModel plane;
+    if (!findPlane(rest, around.distance, {}, plane) &&
+        !findPlane(rest, around.distance, SMALLER, plane))
+      break;
+    if (plane.height(o.out.camera.center) < 0.0)
+      plane = flipped(plane);
+    std::vector<Eigen::Vector3d> left;
+    for (const Eigen::Vector3d& p : rest)
+      if (std::abs(plane.height(p)) > 2.0 * around.distance)
+        left.push_back(p);
+    // neighbours share their errors
+    const double independent =
+        double(rest.size() - left.size()) *
+        std::min(1.0, std::pow(around.apart / o.view.correlation, 2));
+    plane.sigma = std::max(3.0 * plane.noise / std::sqrt(std::max(1.0, independent)),
+                           0.1 * plane.noise);
+    rest.swap(left);
+    if (!mayBeLevel(o, plane) ||
+        relationTo(plane, o.out, reachOf(plane, o.out)) != TableRelation::UNDER)
+      continue;
+    const double confidence = confidenceOf(o, around, plane);
+    if (confidence > std::max(best, SEEN)) {
+      best = confidence;
+      o.out.table = plane;
+    }
+  }
+  if (!o.out.table)
+    o.out.notes.push_back("no table was found under the object, so its lower end is "
+                          "where its points end; give the table if there is one");
 }
 
 void checkTable(ObservedObject& observed) {
   if (!observed.table || observed.points.cols() == 0)
     return;
-  const TableRelation relation = relationTo(*observed.table, observed);
+  const TableRelation relation = relationTo(*observed.table, observed, observed.extent);
   if (relation == TableRelation::ABOVE)
     observed.notes.push_back(
         "the object lies below the table plane, which is left out; check the table and "

@@ -4,6 +4,7 @@
 #include "paper/paper_problem.h"
 #include "pcl_sq/fit_superquadric.h"
 
+#include "solver/descriptions.h"
 #include "union/surface_statistics.h"
 #include "util/point_set.h"
 
@@ -79,16 +80,6 @@ FitSummary minimise(const PaperProblem& problem,
   summary.model = problem.superquadricAt(x);
   summary.distortion = normal.cost;
   return summary;
-}
-
-/** \brief The same body's frame with its axes renamed cyclically. */
-Superquadric turned(const Superquadric& s, int shift) {
-  Superquadric t = s;
-  for (int k = 0; k < 3; ++k) {
-    t.rotation.col(k) = s.rotation.col((k + shift) % 3);
-    t.semi_axes[k] = s.semi_axes[(k + shift) % 3];
-  }
-  return t;
 }
 
 /** \brief Half the points' extent along a direction, a share cut off at each end. */
@@ -168,7 +159,7 @@ FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points
   const int turns = options.axis_assignment == AxisAssignment::BEST_OF_3 ? 3 : 1;
   int iterations = 0, best_shift = 0;
   for (int shift = 0; shift < turns; ++shift) {
-    const Superquadric start = turned(frame.toUnit(initial), shift);
+    const Superquadric start = detail::axesShifted(frame.toUnit(initial), shift);
     const PaperProblem problem(local, start, freeAxis(shift), options);
     FitSummary summary = minimise(problem, start, options);
     iterations += summary.iterations;
@@ -181,7 +172,7 @@ FitSummary fitSuperquadricPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& points
   best.points = local.size();
   // back in metres; what was given stays to the last bit
   const Superquadric unit = best.model;
-  best.model = turned(initial, best_shift);
+  best.model = detail::axesShifted(initial, best_shift);
   best.model.epsilon1 = unit.epsilon1;
   best.model.epsilon2 = unit.epsilon2;
   const int free_axis = freeAxis(best_shift);

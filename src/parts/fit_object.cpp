@@ -110,17 +110,21 @@ void addShifted(const PieceContext& context,
 
 /** \brief Leaves the cuts that are worth full fits.
  * \param[in] limit what the score is to beat */
-void keepPromising(const PieceContext& context,
-                   std::vector<Split>& splits,
-                   double limit) {
+void keepPromising(std::vector<Split>& splits, double limit) {
   std::sort(splits.begin(), splits.end(), betterSplit);
-  if (context.options.fit.taper)
-    limit = 1e299; // quick fits know no taper
-  else if (!splits.empty())
+  if (!splits.empty())
     limit = std::min(limit + QUICK_SLACK,
                      QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
   while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
     splits.pop_back();
+}
+
+/** \brief Whether a piece's model is a body: splinters thinner than the noise and
+ * needles longer than the object are none. */
+bool isPart(const PieceContext& context, const Piece& piece) {
+  const Eigen::Vector3d half = piece.fit.fit.model.halfSizes();
+  return half.minCoeff() > context.noise &&
+         half.maxCoeff() < 2.0 * context.observed.extent;
 }
 
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
@@ -137,13 +141,14 @@ Split bestSplit(const PieceContext& context,
     splits[i] = split(context, piece, cuts[i]);
   });
   addShifted(context, piece, splits);
-  keepPromising(context, splits, limit);
+  keepPromising(splits, limit);
   parallelFor(splits.size(), threads, [&](std::size_t i) {
     fitInFull(context, splits[i], axis);
   });
   Split best;
   for (Split& s : splits)
-    if (s.score < best.score && (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
+    if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
+        (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
   return best;
 }
@@ -153,9 +158,10 @@ Split bestSplit(const PieceContext& context,
  * the one solid of revolution, for where neither fits, the free one may be too flat. */
 TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
   TangentPlane back;
-  back.normal = (whole.straight().center - observed.camera.center).normalized();
+  const Superquadric& body = whole.straight().model;
+  back.normal = (body.center - observed.camera.center).normalized();
   back.offset = 0.0;
-  double farthest = back.residual(whole.straight());
+  double farthest = back.residual(body);
   // bare points have no outline worth the name that would tell
   if (!observed.pixels.cells.empty())
     for (const ShapeCandidate& c : whole.candidates)
@@ -218,14 +224,14 @@ void splitView(const PieceContext& context,
     const std::size_t main = largestOfRevolution(pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
-      const bool good = piece.misfit < GOOD_FIT * observations(context, piece);
+      const bool good = piece.straight_misfit < GOOD_FIT * observations(context, piece);
       if (piece.final || (good && !exactly))
         continue;
       Split s =
           bestSplit(context,
                     piece,
                     main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
-                    exactly ? 1e299 : piece.score);
+                    exactly ? 1e299 : piece.straight_score);
       if (piece.score - s.score > gain) {
         gain = piece.score - s.score;
         best = std::move(s);
@@ -262,15 +268,28 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
 }
 
-/** \brief Of each point: the noise's variance over that and what slant adds. */
+/** \brief Of each point: the noise's variance over that of its own, with what slant
+ * adds (M10). */
 std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   std::vector<float> precision;
   if (!(noise > 0.0))
     return precision;
-  for (const float error : observed.sideways)
-    precision.push_back(static_cast<float>(
-        1.0 / (1.0 + std::pow(SIDEWAYS * double(error) / noise, 2))));
+  for (Eigen::Index i = 0; i < observed.sideways.size(); ++i) {
+    const double own =
+        observed.noise.size() > 0 ? double(observed.noise[i]) / noise : 1.0;
+    const double slant = SIDEWAYS * double(observed.sideways[i]) / noise;
+    precision.push_back(static_cast<float>(1.0 / (own * own + slant * slant)));
+  }
   return precision;
+}
+
+/** \brief What most points err by at most, where that is known. */
+double medianNoise(const ObservedObject& observed) {
+  std::vector<float> noise(observed.noise.data(),
+                           observed.noise.data() + observed.noise.size());
+  const auto middle = noise.begin() + std::ptrdiff_t(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return double(*middle);
 }
 
 } // namespace
@@ -290,8 +309,10 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   if (spannedDimensions(observed.points) < 3)
     return fit;
   double noise = options.fit.noise;
+  const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
-    noise = observed.hasCamera()
+    noise = measured ? medianNoise(observed)
+            : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
                 : curvedNoise(observed.points);
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
@@ -308,10 +329,11 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     return fit;
   if (split) {
     context.noise =
-        Eigen::Vector3d(std::min(noise, pieces[0].fit.noise),
+        Eigen::Vector3d(measured ? noise : std::min(noise, pieces[0].fit.noise),
                         MODEL_ERROR * observed.extent,
-                        observed.pixels.cells.empty() ? 0.0
-                                                      : SENSOR_ERROR * observed.depth)
+                        measured || observed.pixels.cells.empty()
+                            ? 0.0
+                            : SENSOR_ERROR * observed.depth)
             .norm();
     fitPiece(context, pieces[0], Effort::AGAIN);
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);

@@ -79,6 +79,7 @@ bool insideOnRay(const Superquadric& body,
   return true;
 }
 
+/** \brief M11. */
 Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) {
   const ObservedObject& o = context.observed;
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
@@ -272,7 +273,7 @@ void fitPiece(const PieceContext& context,
   if (effort == Effort::QUICK)
     options.starts = QUICK_STARTS;
   if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
-    options.start = piece.fit.straight();
+    options.start = piece.fit.straight().model;
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
@@ -281,6 +282,7 @@ void fitPiece(const PieceContext& context,
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(
       evidence.limits.end(), context.limits.begin(), context.limits.end());
+  const double price = std::log(1.0 + o.effective_points); // of a parameter
   const auto assess = [&](ViewFit fit, double hinges) {
     Piece assessed;
     assessed.fit = std::move(fit);
@@ -288,11 +290,20 @@ void fitPiece(const PieceContext& context,
       return assessed;
     assessed.covered = coveredFreeSpace(context, assessed.fit.fit.model).cost;
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
-    assessed.score =
-        assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
-        (assessed.fit.chosen.shape == ShapeClass::TAPERED ? TAPER : 0.0) +
-        assessed.fit.chosen.parameters * std::log(1.0 + o.effective_points) -
-        0.5 * double(evidence.silhouette.size());
+    assessed.score = assessed.misfit -
+                     (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
+                     (assessed.fit.chosen.shape == ShapeClass::TAPERED ? TAPER : 0.0) +
+                     assessed.fit.chosen.parameters * price -
+                     0.5 * double(evidence.silhouette.size());
+    assessed.straight_misfit = assessed.misfit;
+    assessed.straight_score = assessed.score;
+    if (assessed.fit.chosen.shape == ShapeClass::TAPERED) {
+      const ShapeCandidate &tapered = assessed.fit.chosen,
+                           &straight = assessed.fit.straight();
+      assessed.straight_misfit += straight.cost - tapered.cost;
+      assessed.straight_score += straight.cost - tapered.cost - TAPER -
+                                 (tapered.parameters - straight.parameters) * price;
+    }
     return assessed;
   };
   Piece best = assess(searchView(points, evidence, options), 0.0);
@@ -303,7 +314,7 @@ void fitPiece(const PieceContext& context,
     const Covered covered = coveredFreeSpace(context, best.fit.fit.model);
     ViewEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
-    options.start = best.fit.straight();
+    options.start = best.fit.straight().model;
     ViewFit next = searchView(points, more, options);
     const double hinges = hingeCost(covered.limits, next.fit.model);
     Piece assessed = assess(std::move(next), hinges);
@@ -315,6 +326,8 @@ void fitPiece(const PieceContext& context,
   piece.covered = best.covered;
   piece.misfit = best.misfit;
   piece.score = best.score;
+  piece.straight_misfit = best.straight_misfit;
+  piece.straight_score = best.straight_score;
 }
 
 bool coversFreeSpace(const Piece& piece) {

@@ -23,8 +23,11 @@ struct Piece {
   ViewFit fit;
   double covered = 0.0;  ///< cost of the free pixels that it covers
   double misfit = 1e300; ///< cost of points, planes and free pixels
-  double score = 1e300;  ///< smaller is better; pieces add up
-  bool final = false;    ///< no cut improved it
+  double score = 1e300;  ///< M17: smaller is better; pieces add up
+  /** \brief The same two without a taper: what a taper explains two parts may explain
+   * better, and the quick fits of cuts know no taper. */
+  double straight_misfit = 1e300, straight_score = 1e300;
+  bool final = false; ///< no cut improved it
 };
 
 /** \brief What all pieces of an object share. */

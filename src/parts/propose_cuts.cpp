@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where an object may consist of two parts: where its width changes at once.
+// M18: where an object may consist of two parts: where its width changes at once.
 #include "parts/object_piece.h"
 
 #include <Eigen/Eigenvalues>

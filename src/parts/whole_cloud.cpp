@@ -30,7 +30,7 @@ struct Parts {
   std::size_t cut = 0; ///< the piece that was cut last, the last one being its rest
 };
 
-/** \brief Minus twice the logarithm of the likelihood, plus the parameters' price.
+/** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price.
  *
  * Points are spread evenly over the outer surface, with noise: a surface without points
  * costs as much as points without a surface. */

@@ -62,7 +62,7 @@ double sharingOfErrors(const Eigen::Matrix3Xd& points) {
   const double ratio = total > 0.0 ? median(std::move(own)) / total : 1.0;
   if (!(ratio < INDEPENDENT * INDEPENDENT))
     return 1.0;
-  // the design effect of errors that so many share (Kish 1965)
+  // M9: the design effect of errors that so many share (Kish 1965)
   return 1.0 + (TOGETHER * double(count) - 1.0) * (1.0 - ratio);
 }
 

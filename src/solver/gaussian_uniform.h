@@ -5,28 +5,7 @@
 
 #include "solver/levenberg_marquardt.h"
 
-#include <cmath>
-
 namespace pcl_sq::detail {
-
-/** \brief A Gaussian of peak one beside a uniform density c; what kernels::Mixture says
- * for one residual. */
-struct GaussianUniform {
-  double sigma = 1.0;
-  double c = 0.0; ///< 0: the Gaussian alone
-
-  /** \brief -2 sigma^2 ln of the density over the largest, which is the square itself
-   * for c = 0. \param[out] share of the Gaussian in the density */
-  double cost(double square, double& share) const {
-    share = 1.0;
-    if (!(c > 0.0))
-      return square;
-    const double s = 0.5 / (sigma * sigma);
-    const double density = std::exp(-s * square);
-    share = density / (density + c);
-    return (std::log1p(c) - std::log(density + c)) / s;
-  }
-};
 
 /** \brief The distribution of the points around a surface; lengths in the unit of the
  * points. */
@@ -50,7 +29,7 @@ struct MixtureLimits {
   double max_outlier_share = 0.6;
 };
 
-/** \brief The mixture that the sums of an evaluation imply (the M-step).
+/** \brief The mixture that the sums of an evaluation imply (M20, the M-step).
  * \param[in] share, weighted as in SquareSums */
 Mixture estimated(const Mixture& before,
                   double share,

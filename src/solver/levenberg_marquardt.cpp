@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/levenberg_marquardt.h"
 
-#include "solver/gaussian_uniform.h"
-
 namespace pcl_sq::detail {
 
 namespace {
@@ -54,6 +52,24 @@ ParameterSpace ParameterSpace::rotational() {
   return space;
 }
 
+namespace {
+
+template <int N, int R>
+SquareSums<N> squaresOf(const kernels::SumsOf<R>& sums) {
+  SquareSums<N> e;
+  for (int i = 0; i < N; ++i) {
+    for (int j = i; j < N; ++j)
+      e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
+    e.jtr[i] = sums.products[i][N];
+  }
+  e.cost = e.points_cost = sums.cost;
+  e.share = sums.share;
+  e.weighted = sums.products[N][N];
+  return e;
+}
+
+} // namespace
+
 template <>
 SquareSums<11> sumsOf<11>(const UnitPoints& points,
                           const Superquadric& model,
@@ -61,40 +77,17 @@ SquareSums<11> sumsOf<11>(const UnitPoints& points,
   kernels::Sums sums;
   kernels::kernels().normalEquations(
       points.view(), toShape(model), options.residual, mixture(options), sums);
-  SquareSums<11> e;
-  for (int i = 0; i < 11; ++i) {
-    for (int j = i; j < 11; ++j)
-      e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
-    e.jtr[i] = sums.products[i][11];
-  }
-  e.cost = e.points_cost = sums.cost;
-  e.share = sums.share;
-  e.weighted = sums.products[11][11];
-  return e;
+  return squaresOf<11>(sums);
 }
 
 template <>
 SquareSums<13> sumsOf<13>(const UnitPoints& points,
                           const Superquadric& model,
                           const LmOptions& options) {
-  const GaussianUniform density{options.sigma > 0.0 ? options.sigma : 1.0,
-                                options.outlier};
-  const float* precision = points.view().precision;
-  SquareSums<13> e;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const BodyRow row = footPointRow(model, points[i].cast<double>());
-    const double q = precision ? double(precision[i]) : 1.0;
-    const double square = q * row.value * row.value;
-    double share;
-    e.points_cost += density.cost(square, share);
-    e.share += share;
-    e.weighted += share * square;
-    e.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row.derivatives, share * q);
-    e.jtr += share * q * row.value * row.derivatives;
-  }
-  e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
-  e.cost = e.points_cost;
-  return e;
+  kernels::SumsOf<kernels::TAPERED_ROWS> sums;
+  kernels::kernels().taperedEquations(
+      points.view(), toShape(model), mixture(options), sums);
+  return squaresOf<13>(sums);
 }
 
 double evaluateCost(const UnitPoints& points,

@@ -42,7 +42,7 @@ struct LmSummary {
   Termination termination = Termination::NOT_RUN;
 };
 
-/** \brief Minimises a sum of squares from a start within the bounds.
+/** \brief Minimises a sum of squares from a start within the bounds (M13).
  *
  * \tparam Problem has a constant N, types Model and Equations (jtj, jtr, cost, and
  * points_cost, the part of the cost that tolerances refer to), and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/stereo/stereo_reprojector.h"
 
+#include "stereo/disparity_noise.h"
 #include "stereo/matching.h"
 #include "stereo/refine_disparity.h"
 
@@ -180,6 +181,12 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
     throw;
   }
   result.timings_ms.emplace_back("match", millisecondsSince(start));
+  start = Clock::now();
+  const detail::DisparityNoise noise = detail::measureNoise(
+      detail::toGrey(result.left), detail::toGrey(result.right), result.disparity);
+  result.disparity_sigma = noise.sigma;
+  result.correlation = noise.correlation;
+  result.timings_ms.emplace_back("noise", millisecondsSince(start));
   start = Clock::now();
   result.cloud = reprojectDisparity(result.disparity, result.left, result.intrinsics);
   result.coverage = finiteShare(*result.cloud);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. Which of a scene's planes is the table: the one that things stand on.
+// Private. Which of a scene's planes is the table: the one that things stand on (M12).
 #pragma once
 
 #include "sensor/observation.h"

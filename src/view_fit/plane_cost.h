@@ -24,15 +24,15 @@ inline constexpr double DEPTH_SIGMA = 0.4;
 
 /** \brief Squared, weighted support residuals, in the frame of the points.
  *
- * The silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2), which is
- * integrated out: sum z^2 - (sum z u)^2 / (sum u^2 + 1 / dilation_sigma^2), with z the
- * residuals over their sigmas and u the inverse sigmas; the Gauss-Newton matrix loses
- * the same term of rank one.
+ * M7: the silhouette's lines share an unknown dilation b ~ N(0, dilation_sigma^2),
+ * which is integrated out: sum z^2 - (sum z u)^2 / (sum u^2 + 1 / dilation_sigma^2),
+ * with z the residuals over their sigmas and u the inverse sigmas; the Gauss-Newton
+ * matrix loses the same term of rank one.
  *
- * What the camera cannot see is unlikely to be much deeper than what it sees is wide:
- * ln(half depth / half width) ~ N(0, DEPTH_SIGMA^2) where it is positive. That is next
- * to nothing beside any evidence and decides where there is none: a rod, seen from the
- * side, may otherwise be the edge of a plate. */
+ * M8: what the camera cannot see is unlikely to be much deeper than what it sees is
+ * wide: ln(half depth / half width) ~ N(0, DEPTH_SIGMA^2) where it is positive. That is
+ * next to nothing beside any evidence and decides where there is none: a rod, seen from
+ * the side, may otherwise be the edge of a plate. */
 struct PlaneCost {
   std::vector<TangentPlane> silhouette; ///< tangents with a common dilation
   std::vector<TangentPlane> tangents;   ///< planes that the body touches

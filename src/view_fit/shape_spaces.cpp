@@ -3,29 +3,6 @@
 
 namespace pcl_sq::detail {
 
-Superquadric withAxis(const Superquadric& m, int k) {
-  Superquadric s = m;
-  for (int i = 0; i < 3; ++i) {
-    s.rotation.col(i) = m.rotation.col((i + k + 1) % 3);
-    s.semi_axes[i] = m.semi_axes[(i + k + 1) % 3];
-  }
-  if (k != 2)
-    std::swap(s.epsilon1, s.epsilon2);
-  return s;
-}
-
-Superquadric dual(const Superquadric& m) {
-  Superquadric s = m;
-  const double e = std::min(m.epsilon2, 2.0 - m.epsilon2);
-  const double grown = std::sqrt(2.0) + (1.0 - std::sqrt(2.0)) * e;
-  const double factor = m.epsilon2 <= 1.0 ? grown : 1.0 / grown;
-  s.semi_axes[0] = s.semi_axes[1] = factor * std::sqrt(m.semi_axes[0] * m.semi_axes[1]);
-  s.epsilon2 = std::max(2.0 - m.epsilon2, 0.1);
-  s.rotation *=
-      Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return s;
-}
-
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up) {
   Superquadric s = m;
   const Eigen::Vector3d axis = m.rotation.col(k);

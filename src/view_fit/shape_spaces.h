@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pcl_sq/view_fit.h"
+#include "solver/descriptions.h"
 #include "solver/levenberg_marquardt.h"
 
 namespace pcl_sq::detail {
@@ -10,13 +11,6 @@ namespace pcl_sq::detail {
 /** \brief Cosine of the largest angle to the table's normal of an axis that may be
  * upright, 0.35 rad. */
 inline constexpr double UPRIGHT = 0.9394;
-
-/** \brief The same body with its axes permuted cyclically so that axis \a k is z. */
-Superquadric withAxis(const Superquadric& m, int k);
-
-/** \brief The dual description of the cross-section: turned by 45 degrees about z,
- * e2 -> 2 - e2 (Liu et al. 2022): a box may hide behind a bevelled diamond. */
-Superquadric dual(const Superquadric& m);
 
 /** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up);

@@ -22,7 +22,7 @@ bool cheaper(const Trial& a, const Trial& b) {
   return a.cost < b.cost;
 }
 
-/** \brief Coarse fits of all starts, the best of them refined; sorted by cost. */
+/** \brief M14: coarse fits of all starts, the best of them refined; sorted by cost. */
 std::vector<Trial> search(const ViewProblem& p, int& iterations) {
   std::vector<Superquadric> starts;
   if (p.options().start)
@@ -149,12 +149,12 @@ bool ViewFitOptions::isValid(std::string* why) const {
   return check.passed();
 }
 
-const Superquadric& ViewFit::straight() const {
+const ShapeCandidate& ViewFit::straight() const {
   const auto found =
       std::find_if(candidates.begin(), candidates.end(), [](const auto& c) {
         return c.shape != ShapeClass::TAPERED;
       });
-  return found == candidates.end() ? fit.model : found->model;
+  return found == candidates.end() ? chosen : *found;
 }
 
 const char* toString(ShapeClass shape) {

@@ -42,6 +42,9 @@ public:
   /** \brief The planes' cost beside that of \a points of the given sigma. */
   PlaneCost planes(double sigma, const UnitPoints& points) const;
 
+  /** \brief What a residual of one sigma costs, see PlaneCost::unit. */
+  double unitOf(double sigma, const UnitPoints& points) const;
+
   const Normalisation& frame() const { return frame_; }
   const UnitPoints& all() const { return all_; }
   const UnitPoints& medium() const { return medium_; }
@@ -55,9 +58,6 @@ public:
   const ViewFitOptions& options() const { return options_; }
 
 private:
-  /** \brief What a residual of one sigma costs, see PlaneCost::unit. */
-  double unitOf(double sigma, const UnitPoints& points) const;
-
   ViewFitOptions options_;
   Normalisation frame_;
   UnitPoints all_, medium_, coarse_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The families of superquadrics and their fits from a general one.
+// The families of superquadrics (M15) and their fits from a general one.
 #include "util/parallel_for.h"
 #include "view_fit/shape_spaces.h"
 #include "view_fit/view_problem.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/descriptions.h"
 #include "view_fit/view_problem.h"
 
 #include <Eigen/Eigenvalues>
@@ -80,13 +81,11 @@ void addStarts(const ViewProblem& p,
   for (const Kind& kind : kinds) {
     Superquadric s;
     s.center = middle;
-    for (int k = 0; k < 3; ++k) {
-      s.rotation.col(k) = axes.col((k + shift) % 3);
-      s.semi_axes[k] = half[(k + shift) % 3];
-    }
+    s.rotation = axes;
+    s.semi_axes = half;
+    s = axesShifted(s, shift);
     if (kind.turned)
-      s.rotation *=
-          Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      s = eighthTurn(s);
     s.epsilon1 = kind.epsilon1;
     s.epsilon2 = kind.epsilon2;
     starts.push_back(s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
-#include "view_fit/plane_rows.h"
+#include "view_fit/plane_sums.h"
 #include "view_fit/shape_spaces.h"
 #include "view_fit/view_problem.h"
 
@@ -20,6 +20,7 @@ constexpr double MISFIT = 1.3;
 constexpr double WIDE = 0.03;   ///< sigma of that search, in the points' deviation
 constexpr std::size_t KEPT = 2; ///< starts of it that are refined
 constexpr int ITERATIONS = 20;
+constexpr int ROUGH_ITERATIONS = 10; ///< of that search: it but ranks its starts
 
 /** \brief Where a taper is tried from. */
 struct TaperStart {
@@ -61,26 +62,20 @@ class TaperedFamily {
 public:
   /** \param[in] points of the problem or fewer; kept by reference
    * \param[in] sigma of the points */
-  TaperedFamily(const ViewProblem& problem, const UnitPoints& points, double sigma)
+  TaperedFamily(const ViewProblem& problem,
+                const UnitPoints& points,
+                double sigma,
+                int iterations = ITERATIONS)
       : problem_(problem), points_(points), limits_(problem.limits(sigma)),
-        planes_(problem.planes(sigma, points)),
-        contributor_([this](const Superquadric& body, SquareSums<13>& sums) {
-          const auto row = [&](const Eigen::Vector3d& n) {
-            const BodyRow r = supportRow(body, n);
-            return PlaneRow<13>{r.value, r.derivatives};
-          };
-          const auto reach = [&](const Eigen::Vector3d& n) {
-            return n.dot(body.center) + body.support(n);
-          };
-          addPlaneCost<13>(planes_, row, reach, sums);
-        }) {
-    limits_.max_iterations = ITERATIONS;
+        unit_(problem.unitOf(sigma, points)), planes_(problem.planes(sigma, points)),
+        contributor_(std::cref(planes_)) {
+    limits_.max_iterations = iterations;
   }
   TaperedFamily(const TaperedFamily&) = delete;
   TaperedFamily& operator=(const TaperedFamily&) = delete;
 
   /** \brief What the taper's directions add to the gain that a Gauss-Newton step
-   * promises (Rao's score test). */
+   * promises (Rao's score test, M16). */
   double gainOf(const TaperStart& start) const {
     const PointsProblem<13> squares{points_, limits_, contributor_};
     const SquareSums<13> sums = squares.evaluate(start.from.model);
@@ -98,7 +93,7 @@ public:
       if (!dampedSolve<13>(jtj, jtr, columns, frozen, DAMPING, step))
         return 0.0;
       const double gain = -jtr.head(columns).dot(step.head(columns));
-      return std::max(gain, 0.0) / (planes_.unit * planes_.unit);
+      return std::max(gain, 0.0) / (unit_ * unit_);
     };
     return promised(all) - promised(all - start.taper);
   }
@@ -110,7 +105,7 @@ public:
     c.before = start.family;
     c.upright = start.from.upright;
     c.parameters = static_cast<int>(start.basis.cols());
-    c.cost = found.equations.cost / (planes_.unit * planes_.unit);
+    c.cost = found.equations.cost / (unit_ * unit_);
     c.bic = c.cost + c.parameters * std::log(problem_.observations()) + TAPER;
     c.model = found.model;
     return c;
@@ -122,7 +117,8 @@ private:
   const ViewProblem& problem_;
   const UnitPoints& points_;
   LmOptions limits_;
-  PlaneCost planes_;
+  double unit_; ///< what a residual of one sigma costs
+  PlaneSums planes_;
   ContributorOf<13> contributor_;
 };
 
@@ -153,8 +149,10 @@ ShapeCandidate standingUp(ShapeCandidate c, const Eigen::Vector3d& up) {
 
 /** \brief Tapered bodies from the search's own starts, the best few. */
 std::vector<ShapeCandidate> searchTapers(const ViewProblem& problem) {
-  const TaperedFamily rough(
-      problem, problem.coarse(), std::max(WIDE, 2.0 * problem.noise()));
+  const TaperedFamily rough(problem,
+                            problem.coarse(),
+                            std::max(WIDE, 2.0 * problem.noise()),
+                            ROUGH_ITERATIONS);
   std::vector<ShapeCandidate> candidates;
   for (const Superquadric& start : viewStarts(problem)) {
     ShapeCandidate c;

@@ -207,8 +207,7 @@ TEST(FitApp, PartsMayBeTaperedAndEvaluateReadsThem) {
   for (const Eigen::Vector3d& p : sampleUniform(pot, 2000))
     points.push_back(p.cast<float>());
   const std::string cloud = folder.write("pot.pcd", pcdOf(points));
-  const ProgramRun run =
-      runProgram("pcl_sq_fit", {cloud, "--taper", "-o", folder / "m.json"});
+  const ProgramRun run = runProgram("pcl_sq_fit", {cloud, "-o", folder / "m.json"});
   ASSERT_EQ(run.code, 0) << run.err;
   ModelFile file;
   std::string why;

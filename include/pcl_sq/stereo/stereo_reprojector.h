@@ -18,8 +18,12 @@ struct StereoResult {
    * (colours are there all the same), is_dense false. */
   pcl::PointCloud<pcl::PointXYZRGB>::Ptr cloud;
   cv::Mat disparity; ///< CV_32F [px], NaN where nothing matched; empty for depth images
-  cv::Mat left;      ///< rectified colour image (BGR) the cloud belongs to
-  cv::Mat right;     ///< the other one; empty for depth images
+  /** CV_32F, standard deviation of each disparity [px], measured by the pair itself;
+   * empty for depth images. */
+  cv::Mat disparity_sigma;
+  double correlation = 7.0; ///< side of the square of pixels that share an error [px]
+  cv::Mat left;             ///< rectified colour image (BGR) the cloud belongs to
+  cv::Mat right;            ///< the other one; empty for depth images
   StereoIntrinsics intrinsics; ///< baseline 0 for depth images
   double coverage = 0.0;       ///< share of pixels with depth, 0 to 1
   /** Stages and their times [ms]: rectify, match, reproject. */

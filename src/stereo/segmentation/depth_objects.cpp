@@ -64,13 +64,16 @@ bool findTable(const DepthGrid& grid, float tolerance, DepthPlane& plane) {
          findPlane(grid, grid.finite, tolerance, 0.5 * M_PI, LEAST, plane);
 }
 
-/** \brief The plane around a box, if the box's middle does not lie on it as well. */
+/** \brief The plane around a box, if it goes on before it and the box's middle does not
+ * lie on it as well. A slope that few cameras see a table at takes more of it. */
 bool findPlaneAround(const DepthGrid& grid,
                      const cv::Mat& core,
                      const cv::Rect& inner,
                      float tolerance,
                      DepthPlane& plane) {
-  constexpr double LEAST = 0.2; // of what is seen around the box
+  constexpr double USUAL = 40.0 * M_PI / 180.0;
+  constexpr double LEAST = 0.2, MOST = 0.6; // of what is seen around the box
+  constexpr double BEFORE = 0.3;            // of what is seen below it in the image
   pcl::Indices ring, middle;
   for (const pcl::index_t i : grid.finite) {
     const cv::Point cell(i % grid.width, i / grid.width);
@@ -79,11 +82,26 @@ bool findPlaneAround(const DepthGrid& grid,
     else if (core.at<std::uint8_t>(cell) != 0)
       middle.push_back(i);
   }
-  if (!findPlane(grid, ring, tolerance, STEEP, LEAST, plane))
+  const auto height = [&](pcl::index_t i) {
+    const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
+    return plane.head<3>().dot(p.getVector3fMap()) + plane[3];
+  };
+  const auto goesOnBefore = [&] {
+    std::ptrdiff_t before = 0, on = 0;
+    for (const pcl::index_t i : ring)
+      if (i / grid.width * grid.step > inner.y + inner.height) {
+        ++before;
+        on += std::abs(height(i)) < tolerance;
+      }
+    return double(on) > BEFORE * double(before);
+  };
+  const bool found =
+      (findPlane(grid, ring, tolerance, USUAL, LEAST, plane) && goesOnBefore()) ||
+      findPlane(grid, ring, tolerance, 0.5 * M_PI, MOST, plane);
+  if (!found)
     return false;
   const auto on = std::count_if(middle.begin(), middle.end(), [&](pcl::index_t i) {
-    const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
-    return plane.head<3>().dot(p.getVector3fMap()) + plane[3] < tolerance;
+    return height(i) < tolerance;
   });
   return 2 * on < static_cast<std::ptrdiff_t>(middle.size());
 }
@@ -120,10 +138,13 @@ bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why) {
   return true;
 }
 
-bool labelObjectInBox(const ColorCloud& cloud,
-                      const cv::Rect& box,
-                      const cv::Rect& window,
-                      cv::Mat& labels) {
+bool depthOddsInBox(const ColorCloud& cloud,
+                    const cv::Rect& box,
+                    const cv::Rect& window,
+                    cv::Mat& odds) {
+  constexpr float MOST = 3.0F;   // of ln odds: of twenty such pixels one is another's
+  constexpr double RIM = 6.0;    // a matched window fattens outlines by so much [px]
+  constexpr double IN_BOX = 0.7; // of a piece of the object
   const DepthGrid grid(cloud, window);
   const cv::Rect inner = box - window.tl();
   cv::Mat core = cv::Mat::zeros(grid.height, grid.width, CV_8U);
@@ -146,21 +167,58 @@ bool labelObjectInBox(const ColorCloud& cloud,
       labelPatches(grid, table ? &plane : nullptr, tolerance, &count);
   const std::vector<int> sizes = sizesOf(patches, count, core);
   const auto best = std::max_element(sizes.begin() + 1, sizes.end());
-  if (best == sizes.end() || *best < 0.2 * cv::countNonZero(core))
+  if (best == sizes.end() || *best < 0.1 * cv::countNonZero(core))
     return false;
-  const cv::Mat patch = patches == static_cast<int>(best - sizes.begin());
+  cv::Mat cells = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  const cv::Rect in_cells = cv::Rect(inner.tl() / grid.step,
+                                     cv::Size(inner.width, inner.height) / grid.step) &
+                            cv::Rect(0, 0, grid.width, grid.height);
+  cells(in_cells).setTo(255);
+  const std::vector<int> in_box = sizesOf(patches, count, cells);
+  const std::vector<int> all =
+      sizesOf(patches, count, cv::Mat(patches.size(), CV_8U, cv::Scalar(255)));
+  // what lies in the box at the depth of its middle belongs to the same thing
+  std::vector<std::vector<float>> depths(sizes.size());
+  for (const pcl::index_t i : grid.finite)
+    depths[std::size_t(patches.ptr<int>()[i])].push_back(
+        (*grid.points)[std::size_t(i)].z);
+  const auto range = [&depths](std::size_t k) {
+    std::vector<float>& d = depths[k];
+    std::sort(d.begin(), d.end());
+    const std::size_t cut = d.size() / 20;
+    return cv::Vec2f(d[cut], d[d.size() - 1 - cut]);
+  };
+  const auto main = std::size_t(best - sizes.begin());
+  const cv::Vec2f own = range(main);
+  cv::Mat object = patches == static_cast<int>(main);
+  int others_in = in_box[main], others_all = all[main];
+  for (std::size_t k = 1; k < sizes.size(); ++k) {
+    if (k == main || in_box[k] < 5 || in_box[k] < IN_BOX * all[k])
+      continue;
+    const cv::Vec2f its = range(k);
+    if (its[0] < own[0] - 2.0F * tolerance || its[1] > own[1] + 2.0F * tolerance)
+      continue;
+    object |= patches == static_cast<int>(k);
+    others_in += in_box[k];
+    others_all += all[k];
+  }
+  // depth that goes on beyond the box tells less where the object ends
+  const double whole = others_in / double(others_all);
   cv::Mat known = cv::Mat::zeros(grid.height, grid.width, CV_8U);
   for (const pcl::index_t i : grid.finite)
     known.ptr<std::uint8_t>()[i] = 255;
-  const cv::Mat object = grid.toPixels(patch);
-  const cv::Mat to_object = distanceTo(object);
-  const cv::Mat to_others = distanceTo(grid.toPixels(known & ~patch) & ~object);
-  labels.create(window.size(), CV_8U);
-  labels.setTo(cv::GC_PR_BGD);
-  labels.setTo(cv::GC_PR_FGD, to_object <= to_others);
-  // thin parts, as a handle, may have the depth of what is behind them
-  const double reach = 0.25 * std::min(box.width, box.height);
-  labels.setTo(cv::GC_BGD, to_object > reach);
+  const cv::Mat mine = grid.toPixels(object);
+  const cv::Mat others = grid.toPixels(known & ~object) & ~mine;
+  const cv::Mat to_mine = distanceTo(mine), to_others = distanceTo(others);
+  odds = cv::Mat::zeros(window.size(), CV_32F);
+  odds.forEach<float>([&](float& o, const int* at) {
+    if (mine.at<std::uint8_t>(at[0], at[1]) != 0)
+      o = static_cast<float>(whole) * MOST *
+          std::min(1.0F, to_others.at<float>(at[0], at[1]) / static_cast<float>(RIM));
+    else if (others.at<std::uint8_t>(at[0], at[1]) != 0)
+      o = -MOST *
+          std::min(1.0F, to_mine.at<float>(at[0], at[1]) / static_cast<float>(RIM));
+  });
   return true;
 }
 

@@ -22,18 +22,19 @@ using ColorCloud = pcl::PointCloud<pcl::PointXYZRGB>;
  * \param[out] why the reason of a failure, a sentence \return whether there is one */
 bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why);
 
-/** \brief Labels of GrabCut for a box that holds an object, from an organized cloud.
+/** \brief What depth says of the pixels of a box that holds an object, from an
+ * organized cloud.
  *
  * The patch of connected depths, above the plane around the box if there is one, that
- * fills most of the box's middle is probably the object, other depths probably not, and
- * surely not where they are far from it. Pixels without depth follow their neighbours.
- * \param[in] window part of the image around the box \param[out] labels CV_8U of the
- * window's size: cv::GC_PR_FGD, GC_PR_BGD, GC_BGD
- * \return false if no patch stands out */
-bool labelObjectInBox(const ColorCloud& cloud,
-                      const cv::Rect& box,
-                      const cv::Rect& window,
-                      cv::Mat& labels);
+ * fills most of the box's middle is the object, with what lies in the box at its depth;
+ * other depths are not. Near the border between the two, windows of the matcher may
+ * have taken either for the other. \param[in] window part of the image around the box
+ * \param[out] odds CV_32F of the window's size: ln of the odds that a pixel is the
+ * object's, 0 where nothing is known \return false if no patch stands out */
+bool depthOddsInBox(const ColorCloud& cloud,
+                    const cv::Rect& box,
+                    const cv::Rect& window,
+                    cv::Mat& odds);
 
 /** \brief Rough mask of the patch of connected depths above the table under a pixel.
  * \return false if there is none, or one that is no object: cut by the image's border,

@@ -50,7 +50,6 @@ cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& wi
 cv::Mat cutInBox(const cv::Mat& image,
                  const cv::Rect& box,
                  const cv::Rect& window,
-                 const cv::Mat& depth_labels,
                  int iterations) {
   cv::Mat labels(window.size(), CV_8U, cv::Scalar(cv::GC_BGD));
   const cv::Rect inner = box - window.tl();
@@ -60,10 +59,7 @@ cv::Mat cutInBox(const cv::Mat& image,
       clipped({inner.x - dx, inner.y - dy, inner.width + 2 * dx, inner.height + 2 * dy},
               labels))
       .setTo(cv::GC_PR_BGD);
-  if (depth_labels.empty())
-    labels(inner).setTo(cv::GC_PR_FGD);
-  else
-    depth_labels(inner).copyTo(labels(inner));
+  labels(inner).setTo(cv::GC_PR_FGD);
   return cutGraph(image(window), labels, iterations);
 }
 

@@ -17,12 +17,10 @@ cv::Rect grown(const cv::Rect& rect, double share, const cv::Mat& image);
  * \return CV_8U of the window's size, as of the next one */
 cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& window);
 
-/** \brief The object in a box by a graph cut. \param[in] depth_labels what the cloud
- * says of the window's pixels; empty without a cloud */
+/** \brief The object in a box by a graph cut on colours alone. */
 cv::Mat cutInBox(const cv::Mat& image,
                  const cv::Rect& box,
                  const cv::Rect& window,
-                 const cv::Mat& depth_labels,
                  int iterations);
 
 /** \brief Sharpens a rough mask of the image: its inside is sure, its surroundings are

@@ -3,6 +3,7 @@
 
 #include "stereo/segmentation/color_models.h"
 #include "stereo/segmentation/depth_objects.h"
+#include "stereo/segmentation/joint_cut.h"
 #include "stereo/segmentation/object_masks.h"
 
 #include <opencv2/imgproc.hpp>
@@ -26,7 +27,8 @@ cv::Mat toBgr(const cv::Mat& image) {
   return bgr;
 }
 
-constexpr double PIECE = 0.7; // colours that see less of it than this see a piece
+constexpr double AGREES = 0.85; // of pixels that depth and colours see alike
+constexpr double PIECE = 0.7;   // colours that see less of it than this see a piece
 
 bool sameSize(const cv::Mat& image, const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
   return cloud.isOrganized() && image.cols == static_cast<int>(cloud.width) &&
@@ -112,25 +114,23 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                 "the box is the whole image, so nothing shows the background; give a "
                 "smaller box",
                 segment);
-  const auto cut = [&](const cv::Mat& depth_labels) {
-    cv::Mat whole = cv::Mat::zeros(bgr.size(), CV_8U);
-    const cv::Mat part =
-        options_.method == SegmentMethod::COLOR
-            ? colorInBox(bgr, inside, window)
-            : cutInBox(bgr, inside, window, depth_labels, options_.iterations);
-    part.copyTo(whole(window));
-    return largestComponents(whole);
-  };
-  cv::Mat mask = cut(cv::Mat());
-  cv::Mat depth_labels;
-  // colours alone draw the finer line, unless they see but a piece of what hangs
-  // together in depth
+  cv::Mat mask = cv::Mat::zeros(bgr.size(), CV_8U), depth_odds;
+  if (options_.method == SegmentMethod::COLOR)
+    colorInBox(bgr, inside, window).copyTo(mask(window));
+  else
+    cutInBox(bgr, inside, window, options_.iterations).copyTo(mask(window));
+  mask = largestComponents(mask);
+  // colours alone draw the finer line, unless depth tells that they are wrong
   if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
-      labelObjectInBox(cloud, inside, window, depth_labels)) {
-    cv::Mat likely = cv::Mat::zeros(bgr.size(), CV_8U);
-    likely(inside).setTo(255, depth_labels(inside - window.tl()) == cv::GC_PR_FGD);
-    if (coverage(mask, likely) < PIECE)
-      mask = cut(depth_labels);
+      depthOddsInBox(cloud, inside, window, depth_odds)) {
+    const cv::Rect inner = inside - window.tl();
+    const double right = std::min(agreement(mask(window), inner, depth_odds),
+                                  separability(bgr(window), mask(window)));
+    if (right < AGREES) {
+      cutJointly(bgr(window), inner, depth_odds, options_.iterations)
+          .copyTo(mask(window));
+      mask = largestComponents(mask);
+    }
   }
   std::vector<std::string> notes;
   const bool told = cv::boundingRect(mask).area() >= 0.4 * inside.area();

@@ -141,12 +141,14 @@ TEST(FitObject, GapIsOpenedOnlyWhereTheBackgroundShowsAndFourPartsAreAllowed) {
 TEST(FitObject, MisfitOfAllFamiliesIsNoEvidenceForOne) {
   ObjectFitOptions options;
   options.max_parts = 1;
-  // BIC over cost between families of as many parameters: 1, and less where none fits
+  // BIC over cost between families of as many parameters: 1, and less where none fits;
+  // but a taper has prior odds against it
   const auto worthOf = [](const ViewFit& fit) {
     std::vector<double> worth;
     for (const ShapeCandidate& a : fit.candidates)
       for (const ShapeCandidate& b : fit.candidates)
-        if (a.parameters == b.parameters && a.cost > b.cost + 1.0)
+        if (a.parameters == b.parameters && a.cost > b.cost + 1.0 &&
+            a.shape != ShapeClass::TAPERED && b.shape != ShapeClass::TAPERED)
           worth.push_back((a.bic - b.bic) / (a.cost - b.cost));
     return worth;
   };
@@ -241,15 +243,15 @@ TEST(FitObject, OrderOfThePointsDoesNotMatterMuch) {
   EXPECT_GT(overlap(one.model, other.model), 0.97);
 }
 
-TEST(FitObject, PotIsOneTaperedPartWhereTapersAreAskedFor) {
-  ObjectFitOptions options;
-  options.fit.taper = true;
+TEST(FitObject, PotIsOneTaperedPart) {
+  ObjectFitOptions straight;
+  straight.fit.taper = false;
   ViewScene scene = fineScene();
   scene.addUpright({0.035, 0.035, 0.05}, 0.2, 1.0, 0.05);
   for (const double taper : {0.3, -0.3}) {
     scene.taper = taper;
     scene.render(0.001);
-    const ObjectFit fit = fitScene(scene, options);
+    const ObjectFit fit = fitScene(scene);
     ASSERT_EQ(fit.model.size(), 1u);
     EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::TAPERED);
     EXPECT_EQ(fit.parts[0].chosen.before, ShapeClass::ROTATIONAL);
@@ -258,20 +260,20 @@ TEST(FitObject, PotIsOneTaperedPartWhereTapersAreAskedFor) {
     const double found = overlap(fit.model, scene.tapered());
     EXPECT_GT(found, 0.93);
     // without, it is a stack of parts or a poor one
-    const ObjectFit plain = fitScene(scene);
+    const ObjectFit plain = fitScene(scene, straight);
     EXPECT_FALSE(plain.model.parts[0].isTapered());
     EXPECT_LT(overlap(plain.model, scene.tapered()), found - 0.05);
   }
 }
 
 TEST(FitObject, CanAndBottleTakeNoTaper) {
-  ObjectFitOptions options;
-  options.fit.taper = true;
+  ObjectFitOptions straight;
+  straight.fit.taper = false;
   ViewScene can;
   can.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
   can.render(0.001);
   for (const ViewScene& scene : {can, bottleScene()}) {
-    const ObjectFit fit = fitScene(scene, options), plain = fitScene(scene);
+    const ObjectFit fit = fitScene(scene), plain = fitScene(scene, straight);
     for (const Superquadric& part : fit.model.parts)
       EXPECT_FALSE(part.isTapered());
     ASSERT_EQ(fit.model.size(), plain.model.size());
@@ -298,9 +300,7 @@ TEST(FitObject, ConeSeenFromAllSidesIsOneTaperedPart) {
   }
   ObservedObject observed;
   ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, {}, observed));
-  ObjectFitOptions options;
-  options.fit.taper = true;
-  const ObjectFit fit = fitObject(observed, options);
+  const ObjectFit fit = fitObject(observed, {});
   ASSERT_EQ(fit.model.size(), 1u);
   EXPECT_GT(overlap(fit.model, truth), 0.97);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. The sums of a PlaneCost for any body with a support function.
+// The sums of a PlaneCost as it is defined, plane by plane: an oracle for the kernels.
 #pragma once
 
 #include "view_fit/plane_cost.h"

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/verdict.h"
+
+#include "pcl_sq/line_intersection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Pixels of the object that are looked at: a share of them is known to a
+ * hundredth. */
+constexpr double SAMPLE = 2000.0;
+/** \brief How far things are off the best superquadrics, over half their size: even the
+ * ball that fits a cube best lies within .08 of the cube's side. */
+constexpr double MODEL_ERROR = 0.1;
+constexpr double SIGMAS = 3.0;       ///< farther points are not the surface's
+constexpr double LEAST_PIXELS = 0.8; ///< four to one for the model
+constexpr double EVEN = 0.5;         ///< as likely wrong as right
+
+bool covers(const MultiSuperquadric& model,
+            const Eigen::Vector3d& eye,
+            const Eigen::Vector3d& ray) {
+  return std::any_of(
+      model.parts.begin(), model.parts.end(), [&](const Superquadric& part) {
+        LineInterval inside;
+        return intersectLineBox(part, eye, ray, inside) &&
+               intersectLine(part, eye, ray, inside) && inside.leave > 0.0;
+      });
+}
+
+double
+explainedPoints(const MultiSuperquadric& model, const ObservedObject& o, double noise) {
+  Eigen::Index explained = 0;
+  for (Eigen::Index i = 0; i < o.points.cols(); ++i) {
+    const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
+    const double aside = o.sideways.size() > 0 ? double(o.sideways[i]) : 0.0;
+    const double limit = SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
+    explained += std::abs(model.euclideanDistance(o.points.col(i))) <= limit;
+  }
+  return double(explained) / double(std::max<Eigen::Index>(1, o.points.cols()));
+}
+
+/** \brief Pixels between two of a coarse grid. */
+double spacing(const std::vector<Eigen::Vector2d>& grid) {
+  double step = 1e300;
+  for (std::size_t i = 1; i < grid.size(); ++i)
+    if (const double d = grid[i].x() - grid[i - 1].x(); d > 0.0)
+      step = std::min(step, d);
+  return step < 1e299 ? step : 1.0;
+}
+
+} // namespace
+
+std::string Verdict::objection() const {
+  if (points < EVEN)
+    return "the object's points lie too far from any model of it: they are no one "
+           "thing, "
+           "or noise; give the object's region or mask, or more texture to a stereo "
+           "pair";
+  if (pixels < LEAST_PIXELS)
+    return "the model covers but " + std::to_string(int(std::lround(100.0 * pixels))) +
+           " % of the object's pixels, so it is not the object; give a tighter region "
+           "or a mask of the object";
+  if (confidence() < EVEN)
+    return "the model and what was seen agree by " +
+           std::to_string(int(std::lround(100.0 * confidence()))) +
+           " % only, so it is as likely wrong as right; give a tighter region or a "
+           "mask "
+           "of the object";
+  return {};
+}
+
+Verdict
+judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise) {
+  Verdict verdict;
+  verdict.points = explainedPoints(model, observed, noise);
+  if (!observed.hasCamera() || observed.pixels.cells.empty())
+    return verdict;
+  const CellMask& mask = observed.pixels;
+  const CellRect box = boundingRect(mask);
+  const PinholeCamera& camera = observed.camera;
+  const auto seen = [&](const Eigen::Vector2d& pixel) {
+    return covers(model, camera.center, camera.ray(pixel));
+  };
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(double(mask.count()) / SAMPLE)));
+  int own = 0, covered = 0;
+  for (int y = box.y; y < box.y + box.height; y += step)
+    for (int x = box.x; x < box.x + box.width; x += step)
+      if (mask(x, y)) {
+        ++own;
+        covered += seen({double(x), double(y)});
+      }
+  if (own == 0)
+    return verdict;
+  verdict.pixels = double(covered) / double(own);
+  const auto through =
+      std::count_if(observed.free_space.begin(), observed.free_space.end(), seen);
+  const double scale = std::pow(spacing(observed.free_space) / step, 2);
+  verdict.background =
+      double(covered) / std::max(1.0, double(covered) + scale * double(through));
+  return verdict;
+}
+
+} // namespace pcl_sq::detail

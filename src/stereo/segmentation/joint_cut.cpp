@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/segmentation/joint_cut.h"
+
+#include "stereo/segmentation/color_models.h"
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/imgproc/detail/gcgraph.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+namespace {
+
+constexpr int LARGEST_CUT =
+    300; ///< longer side of the image that is cut as a whole [px]
+/** \brief Cost of a border between two pixels of one colour, in the unit of ln odds: a
+ * pixel of its own has four, and is to be believed where depth and colour agree. */
+constexpr double TOGETHER = 2.0;
+constexpr float SURE = 1e3F;        ///< odds that nothing outweighs
+constexpr float LIKELY = 0.5F;      ///< odds by depth from which colours are learnt
+constexpr float KNOWN = 2.0F;       ///< and from which colours must agree with it
+constexpr double MOST_TRUST = 0.98; ///< colours are never sure
+
+/** \brief Colours' odds, and how often they agree with what is known. */
+struct Colors {
+  cv::Mat odds; ///< CV_32F
+  double trust = 0.5;
+};
+
+Colors
+learnColors(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background) {
+  Colors colors;
+  colors.odds = cv::Mat::zeros(bgr.size(), CV_32F);
+  const int inside = cv::countNonZero(object), outside = cv::countNonZero(background);
+  if (inside == 0 || outside == 0)
+    return colors;
+  const cv::Mat p = colorProbability(bgr, object, background);
+  const double right = cv::countNonZero((p > 127) & object) / double(inside);
+  const double left = cv::countNonZero((p <= 127) & background) / double(outside);
+  colors.trust = std::clamp(0.5 * (right + left), 0.5, MOST_TRUST);
+  const double most = std::log(colors.trust / (1.0 - colors.trust));
+  p.forEach<std::uint8_t>([&](const std::uint8_t& value, const int* at) {
+    const double q = std::clamp(double(value) / 255.0, 0.02, 0.98);
+    colors.odds.at<float>(at[0], at[1]) =
+        static_cast<float>(std::clamp(std::log(q / (1.0 - q)), -most, most));
+  });
+  return colors;
+}
+
+/** \brief The cut of least cost. \param[in] odds CV_32F \param[in] open pixels whose
+ * side is looked for; the others are on that of their odds */
+cv::Mat minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
+  cv::Mat image;
+  cv::GaussianBlur(bgr, image, {3, 3}, 0.0);
+  const cv::Point beside[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+  const auto difference = [&image](const cv::Point& a, const cv::Point& b) {
+    const cv::Vec3d d =
+        cv::Vec3d(image.at<cv::Vec3b>(a)) - cv::Vec3d(image.at<cv::Vec3b>(b));
+    return d.dot(d);
+  };
+  const cv::Rect all(0, 0, bgr.cols, bgr.rows);
+  double sum = 0.0;
+  for (int y = 0; y + 1 < bgr.rows; ++y)
+    for (int x = 0; x + 1 < bgr.cols; ++x)
+      sum += difference({x, y}, {x + 1, y}) + difference({x, y}, {x, y + 1});
+  const double usual = std::max(1.0, sum / (2.0 * double(bgr.total())));
+  const int count = cv::countNonZero(open);
+  cv::detail::GCGraph<double> graph(count, 4 * count);
+  cv::Mat index(bgr.size(), CV_32S, cv::Scalar(-1));
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x)
+      if (open.at<std::uint8_t>(y, x) != 0) {
+        const auto o = double(odds.at<float>(y, x));
+        const int i = graph.addVtx();
+        index.at<int>(y, x) = i;
+        graph.addTermWeights(i, std::max(o, 0.0), std::max(-o, 0.0));
+      }
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x)
+      for (const cv::Point& d : beside) {
+        const cv::Point a(x, y), b = a + d;
+        if (!all.contains(b))
+          continue;
+        const int i = index.at<int>(a), k = index.at<int>(b);
+        if (i < 0 && k < 0)
+          continue;
+        const double weight =
+            TOGETHER *
+            std::max(1e-3, std::exp(-difference(a, b) / (2.0 * usual)) / cv::norm(d));
+        if (i >= 0 && k >= 0)
+          graph.addEdges(i, k, weight, weight);
+        else { // the other pixel's side is known
+          const bool object = odds.at<float>(i >= 0 ? b : a) > 0.0F;
+          graph.addTermWeights(
+              std::max(i, k), object ? weight : 0.0, object ? 0.0 : weight);
+        }
+      }
+  if (count > 0)
+    graph.maxFlow();
+  cv::Mat mask = (odds > 0.0F);
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x)
+      if (const int i = index.at<int>(y, x); i >= 0)
+        mask.at<std::uint8_t>(y, x) = graph.inSourceSegment(i) ? 255 : 0;
+  return mask;
+}
+
+/** \brief The same at a reduced size where the image is large, then along the border
+ * at full size. */
+cv::Mat cutInSteps(const cv::Mat& bgr, const cv::Mat& odds) {
+  const int side = std::max(bgr.cols, bgr.rows);
+  const auto open = [](const cv::Mat& o) { return cv::Mat(cv::abs(o) < 0.5F * SURE); };
+  if (side <= LARGEST_CUT)
+    return minimumCut(bgr, odds, open(odds));
+  const double s = double(LARGEST_CUT) / side;
+  cv::Mat small, small_odds, large, inner, outer;
+  cv::resize(bgr, small, {}, s, s, cv::INTER_AREA);
+  cv::resize(odds, small_odds, small.size(), 0, 0, cv::INTER_NEAREST);
+  cv::resize(minimumCut(small, small_odds, open(small_odds)),
+             large,
+             bgr.size(),
+             0,
+             0,
+             cv::INTER_LINEAR);
+  large = large > 127;
+  const int width = 2 * static_cast<int>(std::ceil(1.0 / s)) + 3;
+  const cv::Mat band =
+      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * width + 1, 2 * width + 1});
+  cv::erode(large, inner, band);
+  cv::dilate(large, outer, band);
+  cv::Mat fixed = odds.clone();
+  fixed.setTo(SURE, inner);
+  fixed.setTo(-SURE, outer == 0);
+  return minimumCut(bgr, fixed, open(fixed));
+}
+
+} // namespace
+
+double agreement(const cv::Mat& mask, const cv::Rect& box, const cv::Mat& depth_odds) {
+  const cv::Mat in_box = mask(box), odds = depth_odds(box);
+  const cv::Mat object = odds > KNOWN, background = odds < -KNOWN;
+  const int inside = cv::countNonZero(object), outside = cv::countNonZero(background);
+  if (inside == 0)
+    return 1.0;
+  const double right = cv::countNonZero(in_box & object) / double(inside);
+  const double left =
+      outside == 0 ? 1.0
+                   : 1.0 - cv::countNonZero(in_box & background) / double(outside);
+  // a few pixels of a kind say little
+  const double weight = outside / double(inside + outside);
+  return std::min(right, 1.0 - weight * (1.0 - left));
+}
+
+double separability(const cv::Mat& bgr, const cv::Mat& mask) {
+  return learnColors(bgr, mask, mask == 0).trust;
+}
+
+cv::Mat cutJointly(const cv::Mat& bgr,
+                   const cv::Rect& box,
+                   const cv::Mat& depth_odds,
+                   int rounds) {
+  // boxes are drawn by hand: just outside of them is hardly the object, not surely not
+  const int dx = 1 + box.width / 40, dy = 1 + box.height / 40;
+  const cv::Rect drawn =
+      cv::Rect(box.x - dx, box.y - dy, box.width + 2 * dx, box.height + 2 * dy) &
+      cv::Rect(0, 0, bgr.cols, bgr.rows);
+  cv::Mat outside(bgr.size(), CV_8U, cv::Scalar(255)), beyond = outside.clone();
+  outside(box).setTo(0);
+  beyond(drawn).setTo(0);
+  cv::Mat object = (depth_odds > LIKELY) & (outside == 0);
+  cv::Mat background = outside | (depth_odds < -LIKELY);
+  cv::Mat mask;
+  for (int round = 0; round < rounds; ++round) {
+    cv::Mat odds = learnColors(bgr, object, background).odds + depth_odds;
+    odds.setTo(-1.0F, (outside != 0) & (odds > -1.0F));
+    odds.setTo(-SURE, beyond);
+    mask = cutInSteps(bgr, odds);
+    object = mask;
+    background = mask == 0;
+  }
+  return mask;
+}
+
+} // namespace pcl_sq::detail
