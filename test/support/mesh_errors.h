@@ -53,7 +53,10 @@ inline double surfaceDistance(const MultiSuperquadric& model,
   };
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < model.size(); ++k) {
-    const Eigen::Vector3d foot = model.parts[k].closestPoint(point);
+    const Superquadric& part = model.parts[k];
+    if ((point - part.center).norm() - part.halfSizes().norm() > nearest)
+      continue; // farther for certain
+    const Eigen::Vector3d foot = part.closestPoint(point);
     order.emplace_back((foot - point).norm(), k);
     offer(foot);
   }
