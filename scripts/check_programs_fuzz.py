@@ -415,9 +415,12 @@ def main():
             return maker.__name__, outcome[0], BATCH if batch else 1, bool(wrong)
 
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            for name, code, files, wrong in pool.map(one, range(runs)):
-                counts[name, code] += files
-                findings += wrong
+            try:
+                for name, code, files, wrong in pool.map(one, range(runs)):
+                    counts[name, code] += files
+                    findings += wrong
+            except KeyboardInterrupt:  # what is done counts
+                pool.shutdown(cancel_futures=True)
     for (name, code), files in sorted(counts.items()):
         print(f"{name:16} exit code {code:3} {files:7} files")
     print(f"{sum(counts.values())} damaged files, {findings} findings")

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-
 using namespace pcl_sq;
 using pcl_sq::test::enclosedVolume;
 using pcl_sq::test::isWatertight;

@@ -97,7 +97,7 @@ TEST(UnionMesh, SingleBodiesKeepTheLaws) {
   expectLaws(unionOf({body({0.02, 0.03, 0.05}, 0.1, 0.1)}), 3e-4, "box");
   expectLaws(unionOf({askew(body({0.02, 0.03, 0.05}, 2, 0.05))}), 3e-4, "prism");
   expectLaws(unionOf({body({0.05, 0.05, 0.001}, 0.1, 1)}), 3e-4, "thin plate");
-  expectLaws(unionOf({body({0.0005, 0.0005, 0.05}, 0.1, 1)}), 3e-4, "needle");
+  expectLaws(unionOf({body({0.0005, 0.0005, 0.05}, 0.1, 1)}), 1e-4, "needle");
   Superquadric cup = body({0.03, 0.03, 0.05}, 0.1, 1);
   cup.kx = cup.ky = 0.8;
   expectLaws(unionOf({cup}), 3e-4, "tapered");
