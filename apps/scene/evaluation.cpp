@@ -84,7 +84,7 @@ std::vector<Eigen::Vector3d> sampleUnion(const MultiSuperquadric& model,
     for (const Eigen::Vector3d& p : sampleUniform(model.parts[k], share)) {
       bool hidden = false;
       for (std::size_t j = 0; j < model.size(); ++j)
-        hidden = hidden || (j != k && model.parts[j].gauge(p) < 1.0);
+        hidden = hidden || (j != k && model.parts[j].inMaterial(p));
       if (!hidden)
         points.push_back(p);
     }

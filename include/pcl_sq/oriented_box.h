@@ -39,12 +39,14 @@ PCL_SQ_EXPORTS TriangleMesh meshBox(const OrientedBox& box);
 /** \brief Distance between a box and a superquadric [m], zero where they overlap.
  *
  * Gilbert, Johnson and Keerthi's algorithm (1988) on the support functions. Exact to a
- * millionth of the distance; of a tapered body that is not convex, to its hull. */
+ * millionth of the distance; of a tapered body that is not convex, to its hull, of a
+ * hollow one to the body filled up to its rim. */
 PCL_SQ_EXPORTS double distance(const OrientedBox& box,
                                const Superquadric& superquadric);
 
 /** \brief Whether box and superquadric come nearer than \a clearance [m]; far cheaper
- * than distance(): a separating plane ends the search. */
+ * than distance(): a separating plane ends the search. A box may reach through the
+ * opening of a hollow body into its hollow. */
 PCL_SQ_EXPORTS bool collides(const OrientedBox& box,
                              const Superquadric& superquadric,
                              double clearance = 0.0);

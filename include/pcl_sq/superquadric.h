@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <iosfwd>
 #include <string>
@@ -41,6 +42,13 @@ using SuperquadricCoefficients = Eigen::Matrix<double, 11, 1>;
  * \f[ \left( (k_x z / a_3 + 1)\, x,\; (k_y z / a_3 + 1)\, y,\; z \right) \f]
  * and F and G are those at the straight place. A tapered body has no centre of symmetry
  * and need not be convex; turned by 180 degrees about x it has the opposite taper.
+ *
+ * The body may be cut at a rim, the plane z = rim a3, above which there is nothing; and
+ * it may be hollow, a bowl or a mug: open at the rim, the hollow's section is the
+ * body's with both semi-axes shorter by the wall, its floor the wall's thickness above
+ * z = -a3. The gauge, the support function and volume() are those of the body filled up
+ * to the rim, which is what collides and what an outline shows; closestPoint() and the
+ * distances are those of the material's surface, inside and floor included.
  * \ingroup pcl_sq
  */
 struct PCL_SQ_EXPORTS Superquadric {
@@ -58,13 +66,25 @@ struct PCL_SQ_EXPORTS Superquadric {
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
   double epsilon1 = 1.0; ///< squareness along z, in [MIN_EPSILON, MAX_EPSILON]
   double epsilon2 = 1.0; ///< squareness across z, in [MIN_EPSILON, MAX_EPSILON]
-  double kx = 0.0; ///< taper: relative growth of the section's x from z = 0 to z = a3
-  double ky = 0.0; ///< and of its y; both in [-MAX_TAPER, MAX_TAPER]
+  double kx = 0.0;  ///< taper: relative growth of the section's x from z = 0 to z = a3
+  double ky = 0.0;  ///< and of its y; both in [-MAX_TAPER, MAX_TAPER]
+  double rim = 1.0; ///< height of the rim over a3, in (-1, 1]; 1: the body is not cut
+  /** \brief Thickness of the wall of a hollow body, open at its rim [m]; 0: solid. */
+  double wall = 0.0;
 
   /** \brief Whether the cross-section changes along z. */
   bool isTapered() const { return kx != 0.0 || ky != 0.0; }
-  /** \brief Half the sides of a box in the own axes that holds the body [m]: the
-   * semi-axes where there is no taper. */
+  /** \brief Whether the body is hollow. */
+  bool isHollow() const { return wall > 0.0; }
+  /** \brief Whether the body ends at a rim. */
+  bool isCut() const { return rim < 1.0 || isHollow(); }
+  /** \brief Whether the body is one of the paper's: neither tapered nor cut. */
+  bool isPlain() const { return !isTapered() && !isCut(); }
+  /** \brief Height of the rim over a3; a hollow body that is not cut is open a
+   * thousandth below its top, where its section has a size. */
+  double rimHeight() const { return isHollow() ? std::min(rim, 0.999) : rim; }
+  /** \brief Half the sides of a box in the own axes, around the centre, that holds the
+   * body [m]: the semi-axes where there is no taper. */
   Eigen::Vector3d halfSizes() const {
     return semi_axes.cwiseProduct(
         Eigen::Vector3d(1.0 + std::abs(kx), 1.0 + std::abs(ky), 1.0));
@@ -90,11 +110,22 @@ struct PCL_SQ_EXPORTS Superquadric {
    * taken to shrink no further than at MAX_TAPER. */
   Eigen::Vector3d untapered(const Eigen::Vector3d& point) const;
 
+  /** \brief Whether a point lies in or on the body, filled up to its rim. */
+  bool contains(const Eigen::Vector3d& point) const { return gauge(point) <= 1.0; }
+  /** \brief Whether a point of the cloud's frame lies in the hollow: above the floor,
+   * within the inner wall, below the rim. */
+  bool inHollow(const Eigen::Vector3d& point) const;
+  /** \brief Whether a point lies in or on the body's material. */
+  bool inMaterial(const Eigen::Vector3d& point) const {
+    return contains(point) && !inHollow(point);
+  }
+
   /** \brief Inside-outside function F, Eq. (4); saturates at the largest double. */
   double insideOutside(const Eigen::Vector3d& point) const;
   /** \brief Gradient of F in the cloud's frame [1/m]; saturates like F. */
   Eigen::Vector3d insideOutsideGradient(const Eigen::Vector3d& point) const;
-  /** \brief Gauge G = F^(epsilon1/2); G - 1 is the paper's distance, Eq. (6). */
+  /** \brief Gauge G = F^(epsilon1/2); G - 1 is the paper's distance, Eq. (6). Of a body
+   * with a rim the larger of that and 1 + z / a3 - rim, filled up to there. */
   double gauge(const Eigen::Vector3d& point) const;
   /** \brief Gradient of G in the cloud's frame [1/m]. */
   Eigen::Vector3d gaugeGradient(const Eigen::Vector3d& point) const;
@@ -117,10 +148,10 @@ struct PCL_SQ_EXPORTS Superquadric {
    * an upper bound of the Euclidean distance that is far tighter than radialDistance().
    */
   double footPointDistance(const Eigen::Vector3d& point) const;
-  /** \brief Surface point closest to \a point, converged to rounding of the distance.
-   */
+  /** \brief Surface point closest to \a point, converged to rounding of the distance;
+   * of a hollow body on its outside, inside, floor or rim. */
   Eigen::Vector3d closestPoint(const Eigen::Vector3d& point) const;
-  /** \brief Signed Euclidean distance to the surface [m], negative inside. */
+  /** \brief Signed Euclidean distance to the surface [m], negative in the material. */
   double euclideanDistance(const Eigen::Vector3d& point) const;
 
   /** \brief Point of the surface on the ray from the centre through \a point, of a
@@ -153,17 +184,20 @@ struct PCL_SQ_EXPORTS Superquadric {
 
   /** \brief Volume 2 a1 a2 a3 e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2) [m^3]
    * (Jaklic, Leonardis, Solina 2000); the odd terms of a taper cancel, and kx ky times
-   * the second moment along z over a3^2 comes on top. */
+   * the second moment along z over a3^2 comes on top. With a rim by quadrature along z,
+   * filled up to there. */
   double volume() const;
-  /** \brief Centre of gravity in the cloud's frame [m]: on the axis, at the centre
-   * where there is no taper. */
+  /** \brief Volume of the material [m^3]: without the hollow. */
+  double materialVolume() const;
+  /** \brief Centre of gravity of the material in the cloud's frame [m]: on the axis, at
+   * the centre where there is neither a taper nor a rim. */
   Eigen::Vector3d centerOfGravity() const;
-  /** \brief Moment of inertia about \a center at density one, axes of the cloud's frame
-   * [m^5] (Jaklic, Leonardis, Solina 2000). */
+  /** \brief Moment of inertia of the material about \a center at density one, axes of
+   * the cloud's frame [m^5] (Jaklic, Leonardis, Solina 2000). */
   Eigen::Matrix3d inertia() const;
 
   /** \brief The coefficients in PCL's order, see SuperquadricCoefficients; they hold no
-   * taper. */
+   * taper, rim or wall. */
   SuperquadricCoefficients toCoefficients() const;
   /** \brief Inverse of toCoefficients(); \a coefficients must hold eleven numbers. */
   static Superquadric fromCoefficients(const SuperquadricCoefficients& coefficients);

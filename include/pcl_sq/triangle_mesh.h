@@ -18,8 +18,9 @@ struct TriangleMesh {
 };
 
 /** \brief Closed mesh of a superquadric: directions of a cube, projected radially,
- * which stays regular down to an exponent of 0.05 (angles pile up there). \param[in]
- * divisions quads along an edge of the cube, at least 2 */
+ * which stays regular down to an exponent of 0.05 (angles pile up there). With a rim:
+ * rings along the outside, over the rim, down the inside to the floor. \param[in]
+ * divisions quads along an edge of the cube or the outside, at least 2 */
 PCL_SQ_EXPORTS TriangleMesh meshSuperquadric(const Superquadric& superquadric,
                                              int divisions = 24);
 
@@ -30,7 +31,7 @@ sampleUniform(const Superquadric& superquadric, std::size_t count, unsigned seed
 
 /** \brief Points about \a spacing [m] apart along the two profile curves (Pilu & Fisher
  * 1995, "Equal-distance sampling of superellipse models"); of a tapered body, before
- * tapering. */
+ * tapering. With a rim as many of sampleUniform(). */
 PCL_SQ_EXPORTS std::vector<Eigen::Vector3d>
 sampleEqualDistance(const Superquadric& superquadric, double spacing);
 

@@ -26,7 +26,8 @@ enum class ShapeClass {
   ROTATIONAL, ///< solid of revolution about z: a1 = a2, e2 = 1
   BOX,        ///< e1 = e2 = 0.2
   ELLIPSOID,  ///< e1 = e2 = 1
-  TAPERED     ///< one of the above whose section grows along z
+  TAPERED,    ///< one of the above whose section grows along z
+  VESSEL      ///< a tapered solid of revolution with a rim and a wall: bowl, cup, plate
 };
 
 /** \brief The value's name, as it stands in the JSON. */
@@ -67,6 +68,8 @@ struct PCL_SQ_EXPORTS ViewFitOptions {
   bool all_points = false;
   /** \brief Whether TAPERED is among the families. */
   bool taper = true;
+  /** \brief Whether VESSEL is among the families. */
+  bool vessel = true;
   bool robust = true;       ///< some points may be outliers
   unsigned int threads = 1; ///< 0: one per core; the result is the same for any number
 
@@ -83,7 +86,8 @@ struct ViewFit {
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
 
-  /** \brief The best candidate without a taper: where another search goes on from. */
+  /** \brief The best candidate with neither taper nor rim: where another search goes on
+   * from. */
   const ShapeCandidate& straight() const;
 };
 

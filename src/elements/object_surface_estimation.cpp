@@ -57,17 +57,38 @@ bool SurfaceEstimator::crop() {
   return true;
 }
 
+void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) {
+  const double limit = farthestOnSurface(report_.view, noise);
+  pcl::Indices near;
+  for (const pcl::index_t i : object_)
+    if (std::abs(model.euclideanDistance(input_.points.col(i).cast<double>())) <= limit)
+      near.push_back(i);
+  const std::size_t strays = object_.size() - near.size();
+  if (near.empty() || 20 * strays < object_.size()) {
+    if (!near.empty())
+      object_ = std::move(near);
+    return;
+  }
+  report_.notes.push_back(std::to_string(100 * strays / object_.size()) +
+                          " % of the object's points lie far off the model and are "
+                          "left out of its figures: "
+                          "false matches, or what it does not show");
+  object_ = std::move(near);
+}
+
 bool SurfaceEstimator::evaluate(MultiSuperquadric& model) {
-  report_.object_indices = object_;
-  const Eigen::Matrix3Xf points = gather(object_);
-  const SurfaceStatistics statistics = model.statistics(points);
-  report_.distortion = statistics.distortion;
-  report_.rms_distance = statistics.rms_distance;
-  if (options_.decomposition != Decomposition::PARTS)
-    return true;
+  const bool parts = options_.decomposition == Decomposition::PARTS;
   double noise = 0.0;
   for (const PartReport& part : report_.parts)
     noise = std::max(noise, part.fit.sigma);
+  if (parts && report_.view.hasCamera())
+    dropStrays(model, noise);
+  report_.object_indices = object_;
+  const SurfaceStatistics statistics = model.statistics(gather(object_));
+  report_.distortion = statistics.distortion;
+  report_.rms_distance = statistics.rms_distance;
+  if (!parts)
+    return true;
   const Verdict verdict = judge(model, report_.view, noise);
   report_.confidence = verdict.confidence();
   const std::string objection = verdict.objection();

@@ -37,6 +37,8 @@ private:
   bool decompose();
   bool fitObject(MultiSuperquadric& model);
   bool fitPrisms(MultiSuperquadric& model);
+  /** \brief Takes points that are not the model's surface out of the object's. */
+  void dropStrays(const MultiSuperquadric& model, double noise);
   bool evaluate(MultiSuperquadric& model);
   bool findGraspPoints(const MultiSuperquadric& model);
 

@@ -4,9 +4,11 @@
 // stalls at an edge; a bracket does not.
 #include "pcl_sq/superquadric.h"
 
-#include "geometry/taper.h"
+#include "geometry/open_body.h"
 
 #include <boost/math/tools/minima.hpp>
+
+#include <limits>
 
 namespace pcl_sq {
 
@@ -47,36 +49,152 @@ Eigen::Vector2d onUnitSuperellipse(double s, double epsilon) {
   return Eigen::Vector2d(1.0 - s, s) / norm;
 }
 
+/** \brief An interval of the parameter s of onUnitSuperellipse(). */
+struct Arc {
+  double begin = 0.0, end = 1.0;
+};
+
+/** \brief The arc of the meridian between two heights over a3 in the half of the body
+ * on one side of z = 0, where heights are counted from there; empty (begin > end) where
+ * it does not reach. */
+Arc arcBetween(const Superquadric& s, double low, double high, double side) {
+  const double from = side > 0.0 ? low : -high, to = side > 0.0 ? high : -low;
+  const auto at = [&](double height) {
+    const double scale =
+        std::pow(1.0 - std::pow(height, 2.0 / s.epsilon1), 0.5 * s.epsilon1);
+    return height / (height + scale);
+  };
+  if (to < 0.0)
+    return {1.0, 0.0};
+  return {at(std::clamp(from, 0.0, 1.0)), at(std::min(to, 1.0))};
+}
+
+/** \brief The point of a body's outside, or of the same shrunk by an inset, nearest to
+ * a place with no negative coordinate, on an arc of the half of the body on one side of
+ * z = 0, mirrored to z >= 0. */
+Eigen::Vector3d closestInHalf(const Superquadric& body,
+                              const Eigen::Vector3d& place,
+                              double side,
+                              double inset,
+                              const Arc& arc) {
+  const auto surfacePoint = [&](const Eigen::Vector2d& profile, double s) {
+    const Eigen::Vector2d section = onUnitSuperellipse(s, body.epsilon2);
+    const Eigen::Vector3d growth =
+        detail::growth(body, side * profile[1] * body.semi_axes.z());
+    if (inset > 0.0) {
+      const Eigen::Vector2d sides =
+          (profile[0] * body.semi_axes.head<2>().cwiseProduct(growth.head<2>()))
+              .array() -
+          inset;
+      const Eigen::Vector2d p = sides.cwiseMax(0.0).cwiseProduct(section);
+      return Eigen::Vector3d(p.x(), p.y(), profile[1] * body.semi_axes.z());
+    }
+    return Eigen::Vector3d(profile[0] * section[0], profile[0] * section[1], profile[1])
+        .cwiseProduct(body.semi_axes)
+        .cwiseProduct(growth)
+        .eval();
+  };
+  const auto profileAt = [&](double t) {
+    return onUnitSuperellipse(arc.begin + (arc.end - arc.begin) * t, body.epsilon1);
+  };
+  const auto bestOnSection = [&](double t) {
+    const Eigen::Vector2d profile = profileAt(t);
+    return minimumOnUnitInterval(
+        [&](double u) { return (surfacePoint(profile, u) - place).squaredNorm(); });
+  };
+  const double t =
+      minimumOnUnitInterval([&](double u) { return bestOnSection(u).second; }).first;
+  return surfacePoint(profileAt(t), bestOnSection(t).first);
+}
+
+/** \brief Normal of a body's side, or of the same shrunk by an inset; own frame. */
+Eigen::Vector3d
+sideNormal(const Superquadric& s, const Eigen::Vector3d& at, double inset) {
+  const double step = 1e-6 * s.semi_axes.z();
+  const auto level = [&](double x, double y, double z) {
+    const detail::Section c = detail::sectionAt(s, z / s.semi_axes.z(), inset);
+    const double u = std::abs(x) / std::max(c.a, 1e-300),
+                 v = std::abs(y) / std::max(c.b, 1e-300);
+    const double larger = std::max(u, v);
+    return larger > 0.0 ? larger * std::pow(std::pow(u / larger, 2.0 / s.epsilon2) +
+                                                std::pow(v / larger, 2.0 / s.epsilon2),
+                                            0.5 * s.epsilon2)
+                        : 0.0;
+  };
+  Eigen::Vector3d normal;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d d = step * Eigen::Vector3d::Unit(k);
+    const Eigen::Vector3d p = at + d, q = at - d;
+    normal[k] = level(p.x(), p.y(), p.z()) - level(q.x(), q.y(), q.z());
+  }
+  return normal.stableNormalized();
+}
+
 } // namespace
+
+namespace detail {
+
+SurfacePlace nearestPlace(const Superquadric& s, const Eigen::Vector3d& local) {
+  const double rim = s.rimHeight(), a3 = s.semi_axes.z();
+  SurfacePlace nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](const Eigen::Vector3d& at, const auto& normal) {
+    const double distance = (at - local).squaredNorm();
+    if (!(distance < least))
+      return;
+    least = distance;
+    nearest = {at, normal(at)};
+  };
+  const auto takeSides = [&](double inset, double low, const auto& normal) {
+    for (const double side : {1.0, -1.0}) {
+      const Arc arc = arcBetween(s, low, rim, side);
+      if (arc.begin > arc.end)
+        continue;
+      const Eigen::Vector3d folded(
+          std::abs(local.x()), std::abs(local.y()), side * local.z());
+      Eigen::Vector3d at = closestInHalf(s, folded, side, inset, arc);
+      for (int axis = 0; axis < 2; ++axis)
+        at[axis] = std::copysign(at[axis], local[axis]);
+      at.z() *= side;
+      take(at, normal);
+    }
+  };
+  const auto takeFlat = [&](double height, bool outside_of_hollow) {
+    const double x = local.x(), y = local.y();
+    const bool on_it =
+        outside_of_hollow
+            ? contains(sectionAt(s, height), s.epsilon2, x, y) &&
+                  !contains(sectionAt(s, height, s.wall), s.epsilon2, x, y)
+            : contains(sectionAt(s, height, s.wall), s.epsilon2, x, y);
+    if (on_it)
+      take({x, y, height * a3},
+           [](const Eigen::Vector3d&) { return Eigen::Vector3d::UnitZ().eval(); });
+  };
+  takeSides(0.0, -1.0, [&](const Eigen::Vector3d& at) {
+    return logGradient(s, placeOf(s, at)).stableNormalized().eval();
+  });
+  takeFlat(rim, s.isHollow());
+  if (s.isHollow()) {
+    takeSides(s.wall, floorHeight(s), [&](const Eigen::Vector3d& at) {
+      return (-sideNormal(s, at, s.wall)).eval();
+    });
+    takeFlat(floorHeight(s), false);
+  }
+  return nearest;
+}
+
+} // namespace detail
 
 Eigen::Vector3d Superquadric::closestPoint(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
+  if (isCut())
+    return toWorld(detail::nearestPlace(*this, local).at);
   const Eigen::Vector3d folded = local.cwiseAbs();
-  // the point of the surface nearest to a place with no negative coordinate, in the
-  // half of the body on one side of z = 0, mirrored to z >= 0
-  const auto closestInHalf = [this](const Eigen::Vector3d& place, double side) {
-    const auto surfacePoint = [this, side](const Eigen::Vector2d& profile, double s) {
-      const Eigen::Vector2d section = onUnitSuperellipse(s, epsilon2);
-      return Eigen::Vector3d(
-                 profile[0] * section[0], profile[0] * section[1], profile[1])
-          .cwiseProduct(semi_axes)
-          .cwiseProduct(detail::growth(*this, side * profile[1] * semi_axes.z()))
-          .eval();
-    };
-    const auto bestOnSection = [&](double s) {
-      const Eigen::Vector2d profile = onUnitSuperellipse(s, epsilon1);
-      return minimumOnUnitInterval(
-          [&](double t) { return (surfacePoint(profile, t) - place).squaredNorm(); });
-    };
-    const double s =
-        minimumOnUnitInterval([&](double t) { return bestOnSection(t).second; }).first;
-    return surfacePoint(onUnitSuperellipse(s, epsilon1), bestOnSection(s).first);
-  };
   const double side = std::copysign(1.0, local.z());
-  Eigen::Vector3d closest = closestInHalf(folded, side);
+  Eigen::Vector3d closest = closestInHalf(*this, folded, side, 0.0, {});
   if (isTapered()) { // the larger half may be nearer though the point is not beside it
     const Eigen::Vector3d mirrored(folded.x(), folded.y(), -folded.z());
-    Eigen::Vector3d other = closestInHalf(mirrored, -side);
+    Eigen::Vector3d other = closestInHalf(*this, mirrored, -side, 0.0, {});
     other.z() = -other.z();
     if ((other - folded).squaredNorm() < (closest - folded).squaredNorm())
       closest = other;

@@ -124,10 +124,12 @@ bool intersectLineBox(const Superquadric& s,
   return clipToUnitCube(toUnitCube(s, origin, direction), interval);
 }
 
-bool intersectLine(const Superquadric& s,
-                   const Eigen::Vector3d& origin,
-                   const Eigen::Vector3d& direction,
-                   LineInterval& interval) {
+namespace {
+
+bool intersectWhole(const Superquadric& s,
+                    const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction,
+                    LineInterval& interval) {
   const UnitLine line = toUnitCube(s, origin, direction);
   LineInterval box;
   if (!clipToUnitCube(line, box))
@@ -147,6 +149,82 @@ bool intersectLine(const Superquadric& s,
     return false;
   interval = found;
   return true;
+}
+
+/** \brief Leaves what of an interval lies below the rim. \return whether anything does
+ */
+bool clipAtRim(const Superquadric& s,
+               const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& direction,
+               LineInterval& interval) {
+  const Eigen::Vector3d axis = s.rotation.col(2);
+  const double above = axis.dot(origin - s.center) - s.rimHeight() * s.semi_axes.z();
+  const double rise = axis.dot(direction);
+  if (rise == 0.0)
+    return above <= 0.0;
+  const double crossing = -above / rise;
+  if (rise > 0.0)
+    interval.leave = std::min(interval.leave, crossing);
+  else
+    interval.enter = std::max(interval.enter, crossing);
+  return interval.enter <= interval.leave;
+}
+
+} // namespace
+
+bool intersectLine(const Superquadric& s,
+                   const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction,
+                   LineInterval& interval) {
+  if (!s.isCut())
+    return intersectWhole(s, origin, direction, interval);
+  Superquadric whole = s;
+  whole.rim = 1.0;
+  whole.wall = 0.0;
+  LineInterval found;
+  if (!intersectWhole(whole, origin, direction, found) ||
+      !clipAtRim(s, origin, direction, found))
+    return false;
+  interval = found;
+  return true;
+}
+
+bool firstHit(const Superquadric& s,
+              const Eigen::Vector3d& origin,
+              const Eigen::Vector3d& direction,
+              double& at) {
+  LineInterval filled;
+  if (!intersectLine(s, origin, direction, filled) || filled.leave < 0.0)
+    return false;
+  const double enter = std::max(filled.enter, 0.0);
+  if (!s.isHollow()) {
+    at = enter;
+    return true;
+  }
+  // through the opening: the hollow is left where the line meets the inside
+  constexpr int SAMPLES = 64;
+  constexpr int BISECTIONS = 52;
+  const double step = (filled.leave - enter) / SAMPLES;
+  const auto hollow = [&](double t) { return s.inHollow(origin + t * direction); };
+  if (!(step > 0.0) || !hollow(enter + 1e-6 * step)) {
+    at = enter;
+    return true;
+  }
+  double inside = enter + 1e-6 * step;
+  for (int i = 1; i <= SAMPLES; ++i) {
+    double beyond = i < SAMPLES ? enter + i * step : filled.leave - 1e-6 * step;
+    if (hollow(beyond)) {
+      inside = beyond;
+      continue;
+    }
+    for (int k = 0; k < BISECTIONS; ++k) {
+      const double middle = 0.5 * (inside + beyond);
+      (hollow(middle) ? inside : beyond) = middle;
+    }
+    at = beyond;
+    return true;
+  }
+  return false; // out over the rim again
 }
 
 } // namespace pcl_sq

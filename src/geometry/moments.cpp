@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volume, centre of gravity and inertia of a superquadric, with or without a taper.
-#include "geometry/taper.h"
+// Volume, centre of gravity and inertia of a superquadric, with or without a taper and
+// a rim.
+#include "geometry/open_body.h"
 
 #include <cmath>
 
@@ -31,6 +32,8 @@ double evenMoment(const Superquadric& s, int p, int q, int r) {
 } // namespace detail
 
 double Superquadric::volume() const {
+  if (isCut())
+    return detail::filledMoments(*this).volume;
   const double straight = 2.0 * semi_axes.prod() * epsilon1 * epsilon2 *
                           beta(0.5 * epsilon1 + 1.0, epsilon1) *
                           beta(0.5 * epsilon2, 0.5 * epsilon2);
@@ -40,7 +43,16 @@ double Superquadric::volume() const {
   return straight + kx * ky * detail::evenMoment(*this, 0, 0, 2) / (a3 * a3);
 }
 
+double Superquadric::materialVolume() const {
+  return isHollow() ? volume() - detail::hollowMoments(*this).volume : volume();
+}
+
 Eigen::Vector3d Superquadric::centerOfGravity() const {
+  if (isCut()) {
+    const detail::AxialMoments m =
+        detail::filledMoments(*this) - detail::hollowMoments(*this);
+    return toWorld({0.0, 0.0, m.z / m.volume});
+  }
   if (!isTapered())
     return center;
   const double along = (kx + ky) * detail::evenMoment(*this, 0, 0, 2) / semi_axes.z();
@@ -51,7 +63,11 @@ Eigen::Matrix3d Superquadric::inertia() const {
   const double e1 = epsilon1, e2 = epsilon2;
   const Eigen::Vector3d a2 = semi_axes.cwiseAbs2();
   Eigen::Vector3d moments;
-  if (!isTapered()) {
+  if (isCut()) {
+    const detail::AxialMoments m =
+        detail::filledMoments(*this) - detail::hollowMoments(*this);
+    moments = {m.yy + m.zz, m.xx + m.zz, m.xx + m.yy};
+  } else if (!isTapered()) {
     const double scale = 0.5 * semi_axes.prod() * e1 * e2;
     const double across = beta(1.5 * e2, 0.5 * e2) * beta(0.5 * e1, 2.0 * e1 + 1.0);
     const double along =

@@ -25,12 +25,14 @@ struct Normalisation {
     s.center = toUnit(s.center);
     s.rotation = axes.transpose() * s.rotation;
     s.semi_axes /= scale;
+    s.wall /= scale;
     return s;
   }
   Superquadric toCloud(Superquadric s) const {
     s.center = axes * s.center * scale + origin;
     s.rotation = Eigen::Quaterniond(axes * s.rotation).normalized().toRotationMatrix();
     s.semi_axes *= scale;
+    s.wall *= scale;
     return s;
   }
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/superquadric.h"
 
-#include "geometry/taper.h"
+#include "geometry/open_body.h"
 
 #include <limits>
 
@@ -22,6 +22,11 @@ double saturatedExp(double x) {
 /** \brief Exponents with which the dual body is evaluated: e' = 2 - e. */
 double dualEpsilon(double epsilon) {
   return std::max(2.0 - epsilon, 1e-6);
+}
+
+/** \brief What a rim adds to the gauge: one on its plane, growing with the height. */
+double aboveRim(const Superquadric& s, const Eigen::Vector3d& local) {
+  return 1.0 + local.z() / s.semi_axes.z() - s.rimHeight();
 }
 
 /** \brief Support function in the own frame (M3); the argument of the dual gauge is a_k
@@ -63,6 +68,16 @@ bool Superquadric::isValid(std::string* why) const {
   for (const double taper : {kx, ky})
     if (!(std::abs(taper) <= MAX_TAPER))
       return fail("a taper is outside [-0.95, 0.95]");
+  if (!(rim > -1.0 && rim <= 1.0))
+    return fail("a rim is outside (-1, 1]");
+  if (!(wall >= 0.0 && wall <= LARGEST))
+    return fail("a wall is negative or not finite");
+  if (isHollow()) {
+    if (!(detail::floorHeight(*this) < rimHeight()))
+      return fail("a wall is thicker than the body is deep below its rim");
+    if (detail::sectionAt(*this, rimHeight(), wall).empty())
+      return fail("a wall is thicker than half the body's width at its rim");
+  }
   const Eigen::Matrix3d gram = rotation.transpose() * rotation;
   if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 ||
       rotation.determinant() <= 0.0)
@@ -71,12 +86,21 @@ bool Superquadric::isValid(std::string* why) const {
 }
 
 double Superquadric::insideOutside(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return saturatedExp(2.0 / epsilon1 * std::log(gauge(point)));
   return saturatedExp(2.0 / epsilon1 *
                       detail::placeOf(*this, toLocal(point)).gauge.value);
 }
 
 Eigen::Vector3d
 Superquadric::insideOutsideGradient(const Eigen::Vector3d& point) const {
+  if (isCut()) { // dF = (2 / e1) G^(2 / e1 - 1) dG
+    const double slope = 2.0 / epsilon1;
+    const double factor =
+        saturatedExp(std::log(slope) + (slope - 1.0) * std::log(gauge(point)));
+    const Eigen::Vector3d gradient = gaugeGradient(point);
+    return (factor * gradient).cwiseMax(-HUGE_VALUE).cwiseMin(HUGE_VALUE);
+  }
   const Place place = detail::placeOf(*this, toLocal(point));
   const double f = saturatedExp(2.0 / epsilon1 * place.gauge.value);
   const Eigen::Vector3d gradient =
@@ -86,13 +110,15 @@ Superquadric::insideOutsideGradient(const Eigen::Vector3d& point) const {
 
 double Superquadric::gauge(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
-  if (local.isZero(0.0))
-    return 0.0;
-  return std::exp(detail::placeOf(*this, local).gauge.value);
+  const double whole =
+      local.isZero(0.0) ? 0.0 : std::exp(detail::placeOf(*this, local).gauge.value);
+  return isCut() ? std::max(whole, aboveRim(*this, local)) : whole;
 }
 
 Eigen::Vector3d Superquadric::gaugeGradient(const Eigen::Vector3d& point) const {
   const Place place = detail::placeOf(*this, toLocal(point));
+  if (isCut() && aboveRim(*this, place.at) > std::exp(place.gauge.value))
+    return rotation.col(2) / semi_axes.z();
   return rotation * (std::exp(place.gauge.value) * detail::logGradient(*this, place));
 }
 
@@ -102,6 +128,8 @@ Superquadric::logGaugeJacobian(const Eigen::Vector3d& point) const {
 }
 
 Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return closestPoint(point);
   const Eigen::Vector3d local = toLocal(point);
   if (local.isZero(0.0)) {
     Eigen::Index shortest;
@@ -114,6 +142,8 @@ Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) con
 }
 
 double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return footPointDistance(point);
   const Eigen::Vector3d local = toLocal(point);
   if (local.isZero(0.0))
     return -semi_axes.minCoeff();
@@ -125,6 +155,8 @@ double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
 }
 
 double Superquadric::firstOrderDistance(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return footPointDistance(point);
   const Eigen::Vector3d local = toLocal(point);
   const Place place = detail::placeOf(*this, local);
   const double slope = detail::logGradient(*this, place).norm(); // |grad G| / G
@@ -134,6 +166,8 @@ double Superquadric::firstOrderDistance(const Eigen::Vector3d& point) const {
 }
 
 double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return detail::meridianDistance(*this, toLocal(point));
   if (isTapered())
     return detail::footPointRow(*this, point).value;
   const Eigen::Vector3d local = toLocal(point);
@@ -155,10 +189,15 @@ double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
 }
 
 double Superquadric::euclideanDistance(const Eigen::Vector3d& point) const {
-  return std::copysign((point - closestPoint(point)).norm(), gauge(point) - 1.0);
+  if (isCut() && detail::isRound(*this)) // the same, without a search
+    return footPointDistance(point);
+  const double distance = (point - closestPoint(point)).norm();
+  return std::copysign(distance, inHollow(point) ? 1.0 : gauge(point) - 1.0);
 }
 
 Eigen::Vector3d Superquadric::normal(const Eigen::Vector3d& point) const {
+  if (isCut())
+    return rotation * detail::nearestPlace(*this, toLocal(point)).normal;
   const Eigen::Vector3d gradient = gaugeGradient(point);
   const double length = gradient.norm();
   if (length > 0.0)
@@ -170,14 +209,14 @@ Eigen::Vector3d Superquadric::normal(const Eigen::Vector3d& point) const {
 
 double Superquadric::support(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
-  if (isTapered())
+  if (!isPlain())
     return detail::taperedSupport(*this, u);
   return u.isZero(0.0) ? 0.0 : std::exp(logSupport(*this, u).value);
 }
 
 Eigen::Vector3d Superquadric::supportPoint(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
-  if (isTapered())
+  if (!isPlain())
     return toWorld(detail::taperedSupportPoint(*this, u));
   return toWorld(contactPoint(logSupport(*this, u), u));
 }
@@ -190,7 +229,7 @@ Superquadric::supportJacobian(const Eigen::Vector3d& direction) const {
 
 SuperquadricCoefficients Superquadric::supportJacobian(const Eigen::Vector3d& direction,
                                                        double& support) const {
-  if (isTapered()) {
+  if (!isPlain()) {
     const detail::BodyRow row = detail::supportRow(*this, direction);
     support = row.value - direction.dot(center);
     return row.derivatives.head<11>();
@@ -213,7 +252,7 @@ Eigen::AlignedBox3d Superquadric::boundingBox() const {
   Eigen::Vector3d above, below;
   for (int k = 0; k < 3; ++k) {
     above[k] = support(Eigen::Vector3d::Unit(k));
-    below[k] = isTapered() ? support(-Eigen::Vector3d::Unit(k)) : above[k];
+    below[k] = isPlain() ? above[k] : support(-Eigen::Vector3d::Unit(k));
   }
   return {center - below, center + above};
 }

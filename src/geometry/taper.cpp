@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/taper.h"
+#include "geometry/open_body.h"
 
 namespace pcl_sq {
 
@@ -123,8 +123,12 @@ void residualsOf(const Superquadric& s,
                  const UnitPoints& points,
                  kernels::Residual residual,
                  float* out) {
-  if (!s.isTapered()) {
+  if (s.isPlain()) {
     kernels::kernels().residuals(points.view(), toShape(s), residual, out);
+    return;
+  }
+  if (s.isCut()) {
+    openResiduals(s, points, residual, out);
     return;
   }
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The support function of a tapered superquadric (M3), by slices.
+// The support function of a superquadric with a taper or a rim (M3), by slices.
 #include "geometry/taper.h"
 
 #include <algorithm>
@@ -15,15 +15,15 @@ constexpr double MAX_SECTION = 1.98;
 constexpr int SLICES = 16;      ///< of the search, equal angles from pole to pole
 constexpr int REFINEMENTS = 24; ///< golden sections of the best two slices
 
-/** \brief The body cut at a latitude eta: z = a3 sin^e1(eta), the section scaled by
- * cos^e1(eta) and the taper. In a direction n of the own frame,
+/** \brief The body cut at a latitude eta, up to that of its rim: z = a3 sin^e1(eta),
+ * the section scaled by cos^e1(eta) and the taper. In a direction n of the own frame,
  * h = max over eta of n_z z + cos^e1(eta) |(n_x a1 f_x, n_y a2 f_y)|_p with
  * p = 2 / (2 - e2), the dual norm of the section's |.|_(2 / e2). */
 class Slices {
 public:
   Slices(const Superquadric& s, const Eigen::Vector3d& local)
-      : s_(s), n_(local), e2_(std::min(s.epsilon2, MAX_SECTION)),
-        p_(2.0 / (2.0 - e2_)) {}
+      : s_(s), n_(local), e2_(std::min(s.epsilon2, MAX_SECTION)), p_(2.0 / (2.0 - e2_)),
+        top_(s.isCut() ? latitudeOf(s) : M_PI_2) {}
 
   struct Slice {
     double sine, cosine; ///< of eta
@@ -55,7 +55,7 @@ public:
   /** \brief The slice that reaches farthest. A tapered body need not be convex: the
    * reach may have several maxima. */
   Slice farthest() const {
-    const double step = M_PI / SLICES;
+    const double step = (top_ + M_PI_2) / SLICES;
     double best = -M_PI_2, most = at(best).reach;
     for (int i = 1; i <= SLICES; ++i) {
       const double eta = -M_PI_2 + i * step, reach = at(eta).reach;
@@ -65,7 +65,7 @@ public:
       }
     }
     constexpr double GOLDEN = 0.6180339887498949;
-    double low = std::max(best - step, -M_PI_2), high = std::min(best + step, M_PI_2);
+    double low = std::max(best - step, -M_PI_2), high = std::min(best + step, top_);
     double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
     double at_left = at(left).reach, at_right = at(right).reach;
     for (int i = 0; i < REFINEMENTS; ++i) {
@@ -105,9 +105,16 @@ public:
   }
 
 private:
+  /** \brief That of the rim. */
+  static double latitudeOf(const Superquadric& s) {
+    const double rim = s.rimHeight();
+    return std::copysign(std::asin(std::pow(std::abs(rim), 1.0 / s.epsilon1)), rim);
+  }
+
   const Superquadric& s_;
   Eigen::Vector3d n_;
   double e2_, p_;
+  double top_; ///< latitude of the last slice
 };
 
 double logOrZero(double x) {
@@ -119,7 +126,7 @@ double logOrZero(double x) {
 BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d n = s.rotation.transpose() * normal;
   BodyRow row;
-  if (!s.isTapered()) { // in closed form
+  if (s.isPlain()) { // in closed form
     row.derivatives.head<11>() = s.supportJacobian(normal, row.value);
     row.value += normal.dot(s.center);
     const Eigen::Vector3d p = s.toLocal(s.supportPoint(normal));

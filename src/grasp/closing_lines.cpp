@@ -31,7 +31,7 @@ double row(int i, int rows) {
 
 /** \brief The closing lines of a surface point and of its images, by all symmetries.
  * \param[in] p point of the eighth with no negative coordinate, own frame; of a
- * tapered part also of that with negative z
+ * tapered part or one with a rim also of that with negative z
  * \param[in] n its outward normal */
 void addSymmetricLines(const Superquadric& s,
                        std::size_t part,
@@ -39,7 +39,7 @@ void addSymmetricLines(const Superquadric& s,
                        const Eigen::Vector3d& n,
                        std::vector<ClosingLine>& lines) {
   for (const auto& signs : SYMMETRIES) {
-    if (s.isTapered() && signs[2] < 0)
+    if (!s.isPlain() && signs[2] < 0)
       continue; // its halves above and below z = 0 differ
     const Eigen::Vector3d g(signs[0], signs[1], signs[2]);
     const Eigen::Vector3d chord = p - g.cwiseProduct(p);
@@ -50,7 +50,7 @@ void addSymmetricLines(const Superquadric& s,
     int first = 0; // g swaps the pair: of an image and its swap one is enough
     while (signs[first] > 0)
       ++first;
-    for (unsigned image = 0; image < (s.isTapered() ? 4u : 8u); ++image) {
+    for (unsigned image = 0; image < (s.isPlain() ? 8u : 4u); ++image) {
       const Eigen::Vector3d flip(
           image & 1u ? -1 : 1, image & 2u ? -1 : 1, image & 4u ? -1 : 1);
       if (flip[first] < 0.0 || ((flip.array() < 0.0) && (p.array() == 0.0)).any())
@@ -87,14 +87,17 @@ std::vector<ClosingLine> ClosingLines::find(double min_width,
                                             double& narrowest,
                                             double& widest) const {
   std::vector<ClosingLine> all, kept;
-  for (std::size_t k = 0; k < object_.size(); ++k)
+  for (std::size_t k = 0; k < object_.size(); ++k) {
     findOnPart(k, all);
+    if (object_.parts[k].isHollow())
+      findOnRim(k, all);
+  }
   narrowest = std::numeric_limits<double>::infinity();
   widest = 0.0;
   for (ClosingLine& line : all) {
     ++rejections.candidates;
     // both normals of a part's own line slip alike, and no second part mends both
-    if (line.slope <= options_.friction && extendToUnion(line))
+    if (line.slope <= options_.friction && !line.at_rim && extendToUnion(line))
       setSlope(line);
     if (line.slope > options_.friction) {
       ++rejections.slipping;
@@ -137,7 +140,7 @@ void ClosingLines::findOnPart(std::size_t part, std::vector<ClosingLine>& lines)
         const Eigen::Vector3d p =
             own.radialProjection(own.tapered(direction.cwiseProduct(s.semi_axes)));
         addSymmetricLines(s, part, p, own.normal(p), lines);
-        if (!s.isTapered())
+        if (s.isPlain())
           continue;
         direction.z() = -direction.z();
         const Eigen::Vector3d below =
@@ -220,6 +223,8 @@ bool ClosingLines::cast(const Eigen::Vector3d& middle,
 
 bool ClosingLines::refine(ClosingLine& line, double max_width) const {
   bool better = false;
+  if (line.at_rim) // along the outside's normal already
+    return false;
   for (int step = 0; step < REFINEMENTS && line.slope > ALIGNED; ++step) {
     const Eigen::Vector3d& n0 = line.normals[0];
     const Eigen::Vector3d& n1 = line.normals[1];

@@ -13,7 +13,8 @@ struct ClosingLine {
   std::array<std::size_t, 2> parts{{0, 0}};
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(); ///< from the first to the second
   double width = 0.0;                              ///< [m]
-  double slope = 0.0; ///< tangent of the larger angle between axis and normal
+  double slope = 0.0;  ///< tangent of the larger angle between axis and normal
+  bool at_rim = false; ///< across a vessel's wall, from the inside to the outside
 
   Eigen::Vector3d middle() const { return 0.5 * (points[0] + points[1]); }
 };
@@ -63,6 +64,19 @@ private:
   void setSlope(ClosingLine& line) const;
   bool contains(const Eigen::Vector3d& point, std::size_t first) const;
   void findOnPart(std::size_t part, std::vector<ClosingLine>& lines) const;
+  /** \brief Lines across the wall of a hollow part, all around below its rim. */
+  void findOnRim(std::size_t part, std::vector<ClosingLine>& lines) const;
+  /** \brief A normal turned towards level by a share of the friction cone's half angle,
+   * no farther than that. */
+  Eigen::Vector3d levelled(const Eigen::Vector3d& normal,
+                           const Eigen::Vector3d& up,
+                           double share) const;
+  /** \brief The line from the inside to a place of the outside along \a axis. \return
+   * whether it comes from the hollow, through the wall alone */
+  bool throughWall(const Superquadric& part,
+                   const Eigen::Vector3d& outside,
+                   const Eigen::Vector3d& axis,
+                   ClosingLine& line) const;
 
   const MultiSuperquadric& object_;
   const GraspPlannerOptions& options_;

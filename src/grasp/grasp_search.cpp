@@ -219,7 +219,7 @@ void GraspSearch::runTwoJaws(GraspPlan& plan) {
       finder.refine(lines[i], max_width);
       describe(i, finder.robustness(lines[i]));
       for (GraspContact& contact : grasps[i].contacts)
-        contact.observed = collision_.observed(contact);
+        contact.observed = collision_.observed(contact, lines[i].at_rim);
       scoreContacts(grasps[i], lines[i].slope, grasps[i].scores.robustness);
       if (grasps[i].scores.observed < options_.min_observed) {
         ++plan.rejections.unseen;

@@ -84,9 +84,9 @@ Obstruction HandCollision::test(const OrientedBox& box, double margin) const {
                                                    : Obstruction::NONE;
 }
 
-double HandCollision::observed(const GraspContact& contact) const {
+double HandCollision::observed(const GraspContact& contact, bool at_rim) const {
   double facing = 1.0;
-  if (scene_.has_viewpoint) {
+  if (scene_.has_viewpoint && !at_rim) {
     // the outline is known as well as the front; 30 degrees behind it nothing is:
     // points close to such a contact lie on another surface, such as a cup's inside
     const Eigen::Vector3d to_viewer =

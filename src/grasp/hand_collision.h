@@ -26,8 +26,9 @@ public:
    * distance to the object [m] */
   Obstruction test(const OrientedBox& box, double margin) const;
 
-  /** \brief Share of a contact that the sensor saw, GraspContact::observed. */
-  double observed(const GraspContact& contact) const;
+  /** \brief Share of a contact that the sensor saw, GraspContact::observed.
+   * \param[in] at_rim the wall is thin there: who saw one side knows the other */
+  double observed(const GraspContact& contact, bool at_rim = false) const;
 
 private:
   void sortCloud(const GraspScene& scene);

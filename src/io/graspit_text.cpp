@@ -48,11 +48,11 @@ Primitive closestPrimitive(const Superquadric& part) {
   for (const Primitive& p : all)
     reach = reach.cwiseMax(p.half_sizes);
   std::vector<int> both(all.size()), either(all.size());
-  const int layers = part.isTapered() ? 2 * CELLS : CELLS;
+  const int layers = !part.isPlain() ? 2 * CELLS : CELLS;
   for (int i = 0; i < CELLS * CELLS * layers; ++i) {
     const Eigen::Vector3d cell(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS);
-    // all shapes are symmetric, but a tapered part across z: an eighth of the box is
-    // enough, or a quarter
+    // all shapes are symmetric, but a tapered part, or one with a rim, across z: an
+    // eighth of the box is enough, or a quarter
     Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
     if (p.z() > reach.z())
       p.z() = reach.z() - p.z();

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* SCHEMA = "pcl_sq/model";
 constexpr int VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
-constexpr int TABLE_VERSION = 3;
+constexpr int OPEN_VERSION = 3; ///< rims, walls and tables
 
 Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -41,6 +41,10 @@ Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
                {"rotation", rotation}};
   if (s.isTapered())
     json["taper"] = {s.kx, s.ky};
+  if (s.rim < 1.0)
+    json["rim"] = s.rim;
+  if (s.isHollow())
+    json["wall"] = s.wall;
   json["points"] = statistics.points;
   addFinite(json, "distortion", statistics.distortion);
   addFinite(json, "rms_distance", statistics.rms_distance);
@@ -92,7 +96,13 @@ std::string optionalString(const Json& object, const char* key) {
   return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
 }
 
-Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
+double number(const Json& part, const char* key) {
+  if (!part.at(key).is_number())
+    throw Refusal{std::string("\"") + key + "\" must be a number"};
+  return part.at(key).get<double>();
+}
+
+Superquadric partFromJson(const Json& part, std::size_t index, int version) {
   Superquadric s;
   s.semi_axes = numbers<3>(member(part, "semi_axes"), "semi_axes");
   const Eigen::Matrix<double, 2, 1> epsilon =
@@ -105,10 +115,19 @@ Superquadric partFromJson(const Json& part, std::size_t index, bool may_taper) {
     throw Refusal{"\"rotation\" must hold three rows"};
   for (int row = 0; row < 3; ++row)
     s.rotation.row(row) = numbers<3>(rotation[row], "rotation");
-  if (may_taper && part.contains("taper")) {
+  if (version >= TAPERED_VERSION && part.contains("taper")) {
     const Eigen::Matrix<double, 2, 1> taper = numbers<2>(part.at("taper"), "taper");
     s.kx = taper[0];
     s.ky = taper[1];
+  }
+  if (version >= OPEN_VERSION) {
+    if (part.contains("rim"))
+      s.rim = number(part, "rim");
+    if (part.contains("wall"))
+      s.wall = number(part, "wall");
+    if (part.contains("bend"))
+      throw Refusal{"superquadric " + std::to_string(index) +
+                    ": bent bodies (\"bend\") are not supported; leave them out"};
   }
   std::string why;
   if (!s.isValid(&why))
@@ -122,7 +141,7 @@ int versionFromJson(const Json& json) {
   if (!version.is_number_integer())
     throw Refusal{"\"version\" is not a whole number"};
   const auto number = version.get<long long>();
-  if (number < VERSION || number > TABLE_VERSION)
+  if (number < VERSION || number > OPEN_VERSION)
     throw Refusal{"version " + version.dump() +
                   " of the schema is not known, 1 to 3 are"};
   return static_cast<int>(number);
@@ -148,20 +167,19 @@ void read(const std::string& text, ModelFile& file) {
   if (!json.is_object() || optionalString(json, "schema") != SCHEMA)
     throw Refusal{"this is not a pcl_sq/model file"};
   const int version = versionFromJson(json);
-  const bool tapered = version >= TAPERED_VERSION;
   if (optionalString(json, "unit") != "m")
     throw Refusal{"the unit must be \"m\""};
   const Json& parts = member(json, "superquadrics");
   if (!parts.is_array())
     throw Refusal{"\"superquadrics\" must be a list"};
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    file.model.parts.push_back(partFromJson(parts[i], i, tapered));
+    file.model.parts.push_back(partFromJson(parts[i], i, version));
     file.statistics.push_back({optionalCount(parts[i], "points"),
                                optionalNumber(parts[i], "distortion"),
                                optionalNumber(parts[i], "rms_distance"),
                                optionalString(parts[i], "termination")});
   }
-  if (version == TABLE_VERSION && json.contains("table"))
+  if (version == OPEN_VERSION && json.contains("table"))
     file.table = tableFromJson(json.at("table"));
   file.frame = optionalString(json, "frame");
   file.distortion = optionalNumber(json, "distortion");
@@ -208,17 +226,19 @@ std::string toJson(const ModelFile& file, int indent) {
     parts.push_back(
         partToJson(file.model.parts[i],
                    i < file.statistics.size() ? file.statistics[i] : PartStatistics()));
-  const bool tapered = std::any_of(file.model.parts.begin(),
-                                   file.model.parts.end(),
-                                   [](const Superquadric& s) { return s.isTapered(); });
+  const auto any = [&file](auto of_kind) {
+    return std::any_of(file.model.parts.begin(), file.model.parts.end(), of_kind);
+  };
+  const bool tapered = any([](const Superquadric& s) { return s.isTapered(); });
+  const bool open = any([](const Superquadric& s) { return s.isCut(); });
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
     addFinite(timings, stage.c_str(), ms);
   Json json = {{"schema", SCHEMA},
                {"version",
-                file.table ? TABLE_VERSION
-                : tapered  ? TAPERED_VERSION
-                           : VERSION},
+                file.table || open ? OPEN_VERSION
+                : tapered          ? TAPERED_VERSION
+                                   : VERSION},
                {"unit", "m"},
                {"frame", file.frame},
                {"superquadrics", parts}};

@@ -24,11 +24,17 @@ std::ostream& operator<<(std::ostream& stream, const Superquadric& superquadric)
   const Eigen::Vector3d x = superquadric.rotation.col(0),
                         y = superquadric.rotation.col(1),
                         z = superquadric.rotation.col(2);
-  return stream << "superquadric at " << Triple{superquadric.center} << " m, semi-axes "
-                << Triple{superquadric.semi_axes} << " m, exponents "
-                << superquadric.epsilon1 << " and " << superquadric.epsilon2
-                << ", axes x " << Triple{x} << ", y " << Triple{y} << ", z "
-                << Triple{z};
+  stream << "superquadric at " << Triple{superquadric.center} << " m, semi-axes "
+         << Triple{superquadric.semi_axes} << " m, exponents " << superquadric.epsilon1
+         << " and " << superquadric.epsilon2 << ", axes x " << Triple{x} << ", y "
+         << Triple{y} << ", z " << Triple{z};
+  if (superquadric.isTapered())
+    stream << ", taper " << superquadric.kx << " and " << superquadric.ky;
+  if (superquadric.isCut())
+    stream << ", rim at " << superquadric.rim << " a3";
+  if (superquadric.isHollow())
+    stream << ", wall " << superquadric.wall << " m";
+  return stream;
 }
 
 std::ostream& operator<<(std::ostream& stream, const MultiSuperquadric& model) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/open_mesh.h"
 #include "mesh/surface_remesher.h"
 
 #include <algorithm>
@@ -48,6 +49,13 @@ double longestSide(const MultiSuperquadric& model) {
 TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
   if (model.empty())
     return {};
+  if (hasOpenParts(model)) {
+    // chords of a circle of the object's size miss it by no more
+    const double chords = std::sqrt(longestSide(model) / tolerance);
+    return addOpenParts(model,
+                        std::clamp(static_cast<int>(chords), 8, 128),
+                        remeshUnion(withoutOpenParts(model), tolerance));
+  }
   const PartMesh start =
       closedMarch(model, MARCHED * tolerance, longestSide(model) / FLAT_CELLS);
   if (!isClosed(start.mesh))
@@ -63,6 +71,10 @@ TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
 TriangleMesh MultiSuperquadric::meshUnion(int resolution) const {
   if (empty())
     return {};
+  if (detail::hasOpenParts(*this))
+    return detail::addOpenParts(*this,
+                                std::clamp(resolution / 2, 8, 128),
+                                detail::withoutOpenParts(*this).meshUnion(resolution));
   const double cell = detail::longestSide(*this) / std::clamp(resolution, 8, 512);
   const detail::PartMesh start = detail::closedMarch(*this, detail::BENT * cell, cell);
   if (!detail::isClosed(start.mesh))

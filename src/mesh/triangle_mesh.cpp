@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/triangle_mesh.h"
 
+#include "mesh/open_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,6 +50,8 @@ quarterSuperellipse(double a, double b, double epsilon, double spacing) {
 
 TriangleMesh meshSuperquadric(const Superquadric& superquadric, int divisions) {
   const int n = std::max(divisions, 2);
+  if (superquadric.isCut())
+    return detail::meshOpenBody(superquadric, n);
   TriangleMesh mesh;
   // Vertices live on an integer cube of side n, so that the six faces weld by their
   // keys.
@@ -120,8 +124,10 @@ sampleUniform(const Superquadric& superquadric, std::size_t count, unsigned seed
       v = 1.0 - v;
     }
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
-    points.push_back(superquadric.radialProjection(a + u * (mesh.vertices[t[1]] - a) +
-                                                   v * (mesh.vertices[t[2]] - a)));
+    const Eigen::Vector3d p =
+        a + u * (mesh.vertices[t[1]] - a) + v * (mesh.vertices[t[2]] - a);
+    // with a rim the chord's point will do: the nearest one costs a search
+    points.push_back(superquadric.isCut() ? p : superquadric.radialProjection(p));
   }
   return points;
 }
@@ -132,6 +138,16 @@ std::vector<Eigen::Vector3d> sampleEqualDistance(const Superquadric& superquadri
   const Eigen::Vector3d& a = superquadric.semi_axes;
   if (!(spacing > 0.0))
     return points;
+  if (superquadric.isCut()) { // no two profile curves: as many, spread evenly
+    double area = 0.0;
+    const TriangleMesh mesh = meshSuperquadric(superquadric, 32);
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d& o = mesh.vertices[t[0]];
+      area += 0.5 * (mesh.vertices[t[1]] - o).cross(mesh.vertices[t[2]] - o).norm();
+    }
+    return sampleUniform(superquadric,
+                         static_cast<std::size_t>(area / (spacing * spacing)) + 1);
+  }
   const double radius = std::max(a.x(), a.y());
   const auto profile =
       quarterSuperellipse(radius, a.z(), superquadric.epsilon1, spacing);

@@ -16,15 +16,14 @@ constexpr int PLANES = 6; ///< largest ones among which the table is
 /** \brief A plane with a smaller share of what is left is found with as many trials as
  * make a miss unlikely: (1 - share^3)^n = 1 %. */
 constexpr PlaneDemand SMALLER = {0.1, 4600};
-/** \brief Lowest visible points of things lie so far above what they stand on, over
- * half their size: round bottoms hide where they touch. */
-constexpr double BOTTOM = 0.18;
+constexpr double RIM = 3.0; ///< pixels beside the outline that are left out, at most
 /** \brief Least uprightness of a table's normal in the image. A wall that faces a level
  * camera has none, and a camera that looks down makes it negative. */
 constexpr double UPRIGHT = 0.25;
 constexpr double FROM_ABOVE = 0.9; ///< of the normal's part along the optical axis
 constexpr double SEEN = 0.5;       ///< of what is around the foot, that is the plane
 constexpr double THROUGH = 0.15;   ///< of it, that lies behind the plane
+constexpr double PARAMETERS = 3.0; ///< of a plane: as many independent points fit any
 constexpr std::size_t FEWEST = 20; ///< points of a side of the foot that tell
 constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sensors
 
@@ -37,9 +36,22 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/** \brief Largest height at which the lowest points of what stands on it may be. */
+/** \brief Largest height at which the lowest visible points of what stands on a table
+ * may be; bottoms are no rounder than a ball's. Seen from an angle a above the table,
+ * the lowest point on a ball's limb is r (1 - cos a) high; a width d in the image
+ * beside the limb is left out, whose inner edge lies sqrt(2 r d) nearer to the camera;
+ * and a fiftieth of the disc's area at its lower edge is r / 10 high. */
 double reachOf(const TableModel& table, const ObservedObject& observed) {
-  return BOTTOM * observed.extent + 3.0 * std::hypot(table.sigma, table.noise);
+  constexpr double FIFTIETH = 0.1;
+  const PinholeCamera& camera = observed.camera;
+  const Eigen::Vector3d ray =
+      (observed.points.rowwise().mean() - camera.center).normalized();
+  const double sine = std::abs(table.normal.dot(ray));
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+  const double r = observed.extent;
+  const double d = RIM * observed.depth / std::sqrt(camera.fx * camera.fy);
+  return r * (1.0 - cosine + FIFTIETH) + d * cosine + std::sqrt(2.0 * r * d) * sine +
+         3.0 * std::hypot(table.sigma, table.noise);
 }
 
 TableRelation
@@ -101,11 +113,11 @@ bool mayBeLevel(const Observation& o, const TableModel& plane) {
   return -normal.y() > UPRIGHT || -normal.z() > FROM_ABOVE;
 }
 
-/** \brief How well what is seen around the object's foot agrees with a plane below it,
- * 0 to 1; 0 where the plane does not go on around it, or is seen through. */
-double confidenceOf(const Observation& o,
-                    const Surroundings& around,
-                    const TableModel& plane) {
+/** \brief How many of the points around the object's foot lie on a plane below it; none
+ * where most are elsewhere, where the plane does not go on around the foot, or where it
+ * is seen through. */
+std::size_t
+supportOf(const Observation& o, const Surroundings& around, const TableModel& plane) {
   const ObservedObject& out = o.out;
   const Eigen::Vector3d middle = out.points.rowwise().mean();
   const Eigen::Vector3d foot = middle - plane.height(middle) * plane.normal;
@@ -135,9 +147,8 @@ double confidenceOf(const Observation& o,
   const Eigen::Vector3d normal = out.camera.rotation.transpose() * plane.normal;
   const bool from_above = -normal.y() <= UPRIGHT && !o.view.up;
   if (told < (from_above ? 4 : 2) || double(through) > THROUGH * double(on + through))
-    return 0.0;
-  const double share = double(on) / double(on + through + before);
-  return share;
+    return 0;
+  return double(on) > SEEN * double(on + through + before) ? on : 0;
 }
 
 } // namespace
@@ -147,8 +158,9 @@ void findTable(Observation& o, const CellRect& box) {
   std::vector<Eigen::Vector3d> rest;
   for (const Beside& b : around.points)
     rest.push_back(b.point);
-  double best = 0.0;
-  for (int attempt = 0; attempt < PLANES; ++attempt) {
+  std::size_t best = 0;
+  // until what is left could not hold more than the best one does
+  for (int attempt = 0; attempt < PLANES && rest.size() > best; ++attempt) {
     TableModel plane;
     if (!findPlane(rest, around.distance, {}, plane) &&
         !findPlane(rest, around.distance, SMALLER, plane))
@@ -166,12 +178,12 @@ void findTable(Observation& o, const CellRect& box) {
     plane.sigma = std::max(3.0 * plane.noise / std::sqrt(std::max(1.0, independent)),
                            0.1 * plane.noise);
     rest.swap(left);
-    if (!mayBeLevel(o, plane) ||
+    if (independent < PARAMETERS || !mayBeLevel(o, plane) ||
         relationTo(plane, o.out, reachOf(plane, o.out)) != TableRelation::UNDER)
       continue;
-    const double confidence = confidenceOf(o, around, plane);
-    if (confidence > std::max(best, SEEN)) {
-      best = confidence;
+    const std::size_t support = supportOf(o, around, plane);
+    if (support > best) {
+      best = support;
       o.out.table = plane;
     }
   }

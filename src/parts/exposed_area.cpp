@@ -3,6 +3,7 @@
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
+#include "pcl_sq/triangle_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,26 @@ struct SurfaceCells {
   Eigen::ArrayXd areas{8 * OCTANT};
 };
 
+/** \brief Of a body with a rim: the triangles of its mesh. */
+SurfaceCells meshCells(const Superquadric& part) {
+  const TriangleMesh mesh = meshSuperquadric(part, 2 * CELLS);
+  const auto count = static_cast<Eigen::Index>(mesh.triangles.size());
+  SurfaceCells cells;
+  cells.middles.resize(3, count);
+  cells.areas.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& t = mesh.triangles[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]],
+                          &c = mesh.vertices[t[2]];
+    cells.middles.col(i) = (a + b + c) / 3.0;
+    cells.areas[i] = 0.5 * (b - a).cross(c - a).norm();
+  }
+  return cells;
+}
+
 SurfaceCells surfaceCells(const Superquadric& part) {
+  if (part.isCut())
+    return meshCells(part);
   SurfaceCells cells;
   const double volume = part.semi_axes.prod() / (CELLS * CELLS);
   for (int c = 0; c < OCTANT; ++c) {

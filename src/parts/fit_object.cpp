@@ -26,6 +26,8 @@ constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
 /** \brief Score of quick fits from which on a cut is not worth full ones: over what it
  * is to beat, and the factor over the best cut's. */
 constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
+/** \brief Share of a vessel's points that may be its handle's. */
+constexpr double MOST_OF_HANDLE = 0.15;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief How far the best cut is moved, over half the piece's size. */
@@ -146,6 +148,13 @@ Split bestSplit(const PieceContext& context,
     fitInFull(context, splits[i], axis);
   });
   Split best;
+  if (standsOff(context, piece, best.first, best.second)) {
+    fitPiece(context, best.first, Effort::FULL);
+    fitHandle(context, best.second, piece.fit.fit.model);
+    // a bottle's neck is no handle: without it the body is no vessel
+    if (best.first.fit.chosen.shape == ShapeClass::VESSEL)
+      best.score = best.first.score + best.second.score;
+  }
   for (Split& s : splits)
     if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
         (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
@@ -167,6 +176,12 @@ TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
     for (const ShapeCandidate& c : whole.candidates)
       if (c.shape == ShapeClass::ROTATIONAL)
         farthest = std::max(farthest, back.residual(c.model));
+  if (whole.chosen.shape ==
+      ShapeClass::VESSEL) { // a solid says nothing; nor of a handle
+    farthest = std::max(farthest, back.residual(whole.chosen.model));
+    for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
+      farthest = std::max(farthest, back.normal.dot(observed.points.col(i)));
+  }
   back.offset = farthest + BACK_SLACK * observed.extent;
   back.sigma = BACK_SIGMA * observed.extent;
   return back;
@@ -224,7 +239,10 @@ void splitView(const PieceContext& context,
     const std::size_t main = largestOfRevolution(pieces);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
-      const bool good = piece.straight_misfit < GOOD_FIT * observations(context, piece);
+      Piece body, handle;
+      const bool good =
+          piece.straight_misfit < GOOD_FIT * observations(context, piece) &&
+          !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
       Split s =
@@ -246,6 +264,43 @@ void splitView(const PieceContext& context,
   }
   if (!exactly)
     mergeParts(context, pieces, min_gain);
+}
+
+/** \brief A vessel seen from all round, and its handle. \return whether it explains the
+ * cloud: a bottle's body is a vessel as well, its neck is no handle */
+bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
+  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL)
+    return false;
+  // not what points on both sides of its wall seemed to have
+  const double noise = context.noise;
+  context.noise = std::min(
+      noise,
+      std::max(scatter(context, pieces[0]), MODEL_ERROR * context.observed.extent));
+  Piece body, handle;
+  if (!standsOff(context, pieces[0], body, handle))
+    return true;
+  if (double(handle.points.size()) > MOST_OF_HANDLE * double(pieces[0].points.size())) {
+    context.noise = noise;
+    return false;
+  }
+  fitHandle(context, handle, pieces[0].fit.fit.model);
+  body.fit = pieces[0].fit;
+  body.score = pieces[0].score;
+  pieces = {std::move(body), std::move(handle)};
+  return true;
+}
+
+/** \brief The parts of a whole cloud, solids all of them. */
+std::vector<Piece>
+splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gain) {
+  const bool exactly = context.options.parts > 0;
+  ObjectFitOptions options = context.options;
+  options.fit.vessel = false;
+  const PieceContext solids{
+      context.observed, options, context.noise, context.precision, context.limits};
+  if (whole.fit.chosen.shape == ShapeClass::VESSEL)
+    fitPiece(solids, whole, Effort::AGAIN);
+  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of
@@ -342,9 +397,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       splitView(context, pieces, wanted, min_gain);
       if (wanted >= 4 && options.parts == 0)
         openGap(context, pieces, min_gain);
-    } else
-      pieces = splitWholeCloud(
-          context, std::move(pieces[0]), wanted, options.parts > 0, min_gain);
+    } else if (!fitWholeVessel(context, pieces))
+      pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
     finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);

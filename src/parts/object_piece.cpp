@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/object_piece.h"
 
+#include "parts/body_outline.h"
 #include "pcl_sq/line_intersection.h"
 #include "view_fit/plane_cost.h"
 #include "view_fit/view_problem.h"
@@ -85,13 +86,20 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
   Covered covered;
+  // beyond the outline of a body that is not plain no costly search along the ray
+  const BodyOutline outline =
+      body.isPlain() ? BodyOutline() : BodyOutline(body, o.camera.center, 24);
   for (const Eigen::Vector2d& p : o.free_space) {
     const Eigen::Vector3d ray = o.camera.ray(p);
+    if (outline.misses(ray))
+      continue;
     Eigen::Vector3d inside;
     if (!insideOnRay(body, o.camera.center, ray, inside))
       continue;
     TangentPlane limit;
-    limit.normal = body.rotation * -body.logGaugeJacobian(inside).head<3>();
+    limit.normal = body.isCut()
+                       ? body.gaugeGradient(inside)
+                       : body.rotation * -body.logGaugeJacobian(inside).head<3>();
     limit.normal -= limit.normal.dot(ray) * ray;
     if (!(limit.normal.norm() > 1e-9))
       continue;
@@ -240,6 +248,7 @@ Piece cutPiece(const PieceContext& context, const Piece& piece, const Cut& cut) 
     }
   }
   part.ends = piece.ends;
+  part.stands = piece.stands;
   TangentPlane end;
   end.normal = -cut.normal;
   end.offset = -cut.offset;
@@ -267,6 +276,7 @@ void fitPiece(const PieceContext& context,
       options.precision.push_back(context.precision[std::size_t(i)]);
   const bool general = effort == Effort::QUICK || effort == Effort::START;
   options.choose_shape = options.choose_shape && !general;
+  options.vessel = options.vessel && piece.stands; // a handle is none
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;
@@ -277,7 +287,7 @@ void fitPiece(const PieceContext& context,
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
-                 reachesTable(context, points, piece.ends.empty()));
+                 piece.stands && reachesTable(context, points, piece.ends.empty()));
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(
@@ -292,7 +302,9 @@ void fitPiece(const PieceContext& context,
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
     assessed.score = assessed.misfit -
                      (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
-                     (assessed.fit.chosen.shape == ShapeClass::TAPERED ? TAPER : 0.0) +
+                     (assessed.fit.chosen.shape == ShapeClass::TAPERED  ? TAPER
+                      : assessed.fit.chosen.shape == ShapeClass::VESSEL ? VESSEL
+                                                                        : 0.0) +
                      assessed.fit.chosen.parameters * price -
                      0.5 * double(evidence.silhouette.size());
     assessed.straight_misfit = assessed.misfit;
@@ -336,6 +348,7 @@ bool coversFreeSpace(const Piece& piece) {
 
 Piece mergePieces(const Piece& a, const Piece& b) {
   Piece merged;
+  merged.stands = a.stands || b.stands;
   merged.points = a.points;
   merged.points.insert(merged.points.end(), b.points.begin(), b.points.end());
   merged.pixels = a.pixels;

@@ -20,6 +20,7 @@ struct Piece {
   std::vector<ContourPoint> contour;
   std::vector<Eigen::Vector2d> pixels; ///< some of the piece's, for its width
   std::vector<TangentPlane> ends;      ///< where cuts end it, roughly
+  bool stands = true;                  ///< whether it may reach the table
   ViewFit fit;
   double covered = 0.0;  ///< cost of the free pixels that it covers
   double misfit = 1e300; ///< cost of points, planes and free pixels
@@ -58,6 +59,21 @@ Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
 
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
+
+/** \brief Parts what stands off a vessel, a handle, from its body. \return whether
+ * enough does, and hangs together */
+[[nodiscard]] bool standsOff(const PieceContext& context,
+                             const Piece& piece,
+                             Piece& body_piece,
+                             Piece& handle);
+
+/** \brief Median distance of a piece's points to its model, as a standard deviation
+ * [m]. */
+double scatter(const PieceContext& context, const Piece& piece);
+
+/** \brief Fits a handle and scores it; the ellipsoid around its points where no fit
+ * comes near them. */
+void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body);
 
 enum class Effort {
   QUICK, ///< general shape, few starts

@@ -2,6 +2,7 @@
 #include "parts/verdict.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "union/surface_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,9 @@ constexpr double SAMPLE = 2000.0;
 /** \brief How far things are off the best superquadrics, over half their size: even the
  * ball that fits a cube best lies within .08 of the cube's side. */
 constexpr double MODEL_ERROR = 0.1;
+/** \brief Median distance to a model that is none, over the points' size: it is .05 for
+ * the ball that fits a cube best, and more for a cloud without a surface. */
+constexpr double MOST_OFF = 0.06;
 constexpr double SIGMAS = 3.0;       ///< farther points are not the surface's
 constexpr double LEAST_PIXELS = 0.8; ///< four to one for the model
 constexpr double EVEN = 0.5;         ///< as likely wrong as right
@@ -31,16 +35,37 @@ bool covers(const MultiSuperquadric& model,
       });
 }
 
-double
-explainedPoints(const MultiSuperquadric& model, const ObservedObject& o, double noise) {
+/** \brief Share of the points that the model explains, and how far off they are. */
+void judgePoints(const MultiSuperquadric& model,
+                 const ObservedObject& o,
+                 double noise,
+                 Verdict& verdict) {
+  const Eigen::Index n = o.points.cols();
+  if (n == 0)
+    return;
   Eigen::Index explained = 0;
-  for (Eigen::Index i = 0; i < o.points.cols(); ++i) {
+  // the nearest place of a wall costs a search; of a solid of revolution, which vessels
+  // are, the distance in the half plane is the same
+  const bool open = std::any_of(
+      model.parts.begin(), model.parts.end(), [](const auto& s) { return s.isCut(); });
+  std::vector<double> distances;
+  if (open)
+    distances = smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT);
+  else
+    for (Eigen::Index i = 0; i < n; ++i)
+      distances.push_back(model.euclideanDistance(o.points.col(i)));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double& distance = distances[std::size_t(i)];
+    distance = std::abs(distance);
     const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
     const double aside = o.sideways.size() > 0 ? double(o.sideways[i]) : 0.0;
-    const double limit = SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
-    explained += std::abs(model.euclideanDistance(o.points.col(i))) <= limit;
+    explained += distance <= SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
   }
-  return double(explained) / double(std::max<Eigen::Index>(1, o.points.cols()));
+  verdict.points = double(explained) / double(n);
+  const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  const Eigen::Matrix3Xd spread = o.points.colwise() - o.points.rowwise().mean();
+  verdict.off = *middle / (2.0 * std::sqrt(spread.squaredNorm() / double(n)));
 }
 
 /** \brief Pixels between two of a coarse grid. */
@@ -55,11 +80,10 @@ double spacing(const std::vector<Eigen::Vector2d>& grid) {
 } // namespace
 
 std::string Verdict::objection() const {
-  if (points < EVEN)
+  if (points < EVEN || off > MOST_OFF)
     return "the object's points lie too far from any model of it: they are no one "
-           "thing, "
-           "or noise; give the object's region or mask, or more texture to a stereo "
-           "pair";
+           "thing, or noise; give the object's region or mask, or more texture to a "
+           "stereo pair";
   if (pixels < LEAST_PIXELS)
     return "the model covers but " + std::to_string(int(std::lround(100.0 * pixels))) +
            " % of the object's pixels, so it is not the object; give a tighter region "
@@ -68,15 +92,22 @@ std::string Verdict::objection() const {
     return "the model and what was seen agree by " +
            std::to_string(int(std::lround(100.0 * confidence()))) +
            " % only, so it is as likely wrong as right; give a tighter region or a "
-           "mask "
-           "of the object";
+           "mask of the object";
   return {};
+}
+
+double farthestOnSurface(const ObservedObject& observed, double noise) {
+  double own = noise;
+  if (observed.noise.size() > 0)
+    own =
+        std::sqrt(double(observed.noise.squaredNorm()) / double(observed.noise.size()));
+  return SIGMAS * own + MODEL_ERROR * observed.extent;
 }
 
 Verdict
 judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise) {
   Verdict verdict;
-  verdict.points = explainedPoints(model, observed, noise);
+  judgePoints(model, observed, noise, verdict);
   if (!observed.hasCamera() || observed.pixels.cells.empty())
     return verdict;
   const CellMask& mask = observed.pixels;

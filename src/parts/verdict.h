@@ -13,13 +13,22 @@ struct Verdict {
   double pixels = 1.0; ///< of the object's pixels, that the model covers
   double background = 1.0; ///< of the pixels it covers, where none is seen through it
 
-  /** \brief All three together. */
+  /** \brief Median distance of the points to the model over twice their root mean
+   * square distance to their middle: half a cube's side, a ball's radius. */
+  double off = 0.0;
+
+  /** \brief The three shares together. */
   double confidence() const { return points * pixels * background; }
   /** \brief Why the model is not to be believed and what helps, a sentence; empty where
    * it is. */
   std::string objection() const;
 };
 
+/** \brief Points farther from a model are not its surface [m]. \param[in] noise of the
+ * points where the view does not tell [m] */
+[[nodiscard]] double farthestOnSurface(const ObservedObject& observed, double noise);
+
+/** \param[in] noise as in farthestOnSurface() */
 [[nodiscard]] Verdict
 judge(const MultiSuperquadric& model, const ObservedObject& observed, double noise);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gaussian_uniform.h"
 
-#include "geometry/surface_area.h"
+#include "solver/surface_area.h"
 
 #include <algorithm>
 

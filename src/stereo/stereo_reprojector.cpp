@@ -18,6 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double SIGMAS = 3.0;                ///< beyond which two disparities differ
 constexpr double DISPARITY_STEP = 1.0 / 16.0; ///< of OpenCV's matchers [px]
 
 double millisecondsSince(Clock::time_point start) {
@@ -186,6 +187,10 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
       detail::toGrey(result.left), detail::toGrey(result.right), result.disparity);
   result.disparity_sigma = noise.sigma;
   result.correlation = noise.correlation;
+  // what cannot be told from infinitely far has no depth
+  const cv::Mat least = SIGMAS * noise.sigma - result.intrinsics.doffs;
+  result.disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
+                         result.disparity < least);
   result.timings_ms.emplace_back("noise", millisecondsSince(start));
   start = Clock::now();
   result.cloud = reprojectDisparity(result.disparity, result.left, result.intrinsics);

@@ -26,7 +26,7 @@ Eigen::Matrix3d inertiaOf(const Eigen::Matrix3d& second) {
 
 Moments ofPart(const Superquadric& part) {
   Moments m;
-  m.volume = part.volume();
+  m.volume = part.materialVolume();
   m.first = m.volume * part.centerOfGravity();
   const Eigen::Matrix3d inertia = part.inertia(); // about the centre
   const Eigen::Matrix3d across = // of a tapered body, which does not lie around it
@@ -55,9 +55,9 @@ Moments shared(const MultiSuperquadric& model, std::size_t k, int resolution) {
     return m;
   const Eigen::Vector3d cell = region.sizes() / resolution;
   const auto covered = [&](const Eigen::Vector3d& p) {
-    return part.gauge(p) <= 1.0 &&
+    return part.inMaterial(p) &&
            std::any_of(others.begin(), others.end(), [&](std::size_t j) {
-             return model.parts[j].gauge(p) <= 1.0;
+             return model.parts[j].inMaterial(p);
            });
   };
   for (int z = 0; z < resolution; ++z)

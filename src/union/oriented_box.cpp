@@ -72,6 +72,35 @@ gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_dist
   return v.norm();
 }
 
+/** \brief Whether all of a box that is below the rim of a hollow body lies in its
+ * hollow, no nearer to the material than \a clearance: the corners of what is left of
+ * the box, for a hollow is convex where its body is. */
+bool liesInHollow(const OrientedBox& box, const Superquadric& s, double clearance) {
+  Superquadric shrunk = s;
+  shrunk.wall = s.wall + std::max(clearance, 0.0);
+  if (!shrunk.isValid())
+    return false;
+  const double rim = s.rimHeight() * s.semi_axes.z();
+  const double below = rim - 1e-9 * s.semi_axes.z();
+  std::array<Eigen::Vector3d, 8> corners = box.corners();
+  for (Eigen::Vector3d& c : corners)
+    c = s.toLocal(c);
+  const auto in = [&](const Eigen::Vector3d& p) {
+    return shrunk.inHollow(s.toWorld({p.x(), p.y(), std::min(p.z(), below)}));
+  };
+  for (unsigned i = 0; i < 8; ++i) {
+    if (corners[i].z() <= rim && !in(corners[i]))
+      return false;
+    for (unsigned bit = 1; bit < 8; bit <<= 1) { // the edges through the rim's plane
+      const Eigen::Vector3d &a = corners[i], &b = corners[i ^ bit];
+      if (!(i & bit) && (a.z() <= rim) != (b.z() <= rim) &&
+          !in(a + (rim - a.z()) / (b.z() - a.z()) * (b - a)))
+        return false;
+    }
+  }
+  return true;
+}
+
 } // namespace
 
 std::array<Eigen::Vector3d, 8> OrientedBox::corners() const {
@@ -111,6 +140,8 @@ bool collides(const OrientedBox& box,
               double clearance) {
   Eigen::Index axis;
   if (apartByFaces(box, superquadric, clearance, axis))
+    return false;
+  if (superquadric.isHollow() && liesInHollow(box, superquadric, clearance))
     return false;
   // a gripper's pads are tangent planes: their normal separates most of what is left
   Eigen::Vector3d n = box.rotation.col(axis);

@@ -14,11 +14,8 @@ bool isHidden(const MultiSuperquadric& model,
   const Eigen::Vector3d sight = point - eye;
   const double length = sight.norm();
   const auto covers = [&](const Superquadric& part) {
-    LineInterval inside;
-    if (!intersectLine(part, eye, sight, inside) || inside.leave < 0.0)
-      return false;
-    // an eye within a part sees its walls from inside
-    return std::max(0.0, inside.enter) * length < length - slack;
+    double hit; // an eye within a part sees its walls from inside
+    return firstHit(part, eye, sight, hit) && hit * length < length - slack;
   };
   return std::any_of(model.parts.begin(), model.parts.end(), covers);
 }

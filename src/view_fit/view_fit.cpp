@@ -103,6 +103,10 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     if (const auto tapered =
             fitTaper(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*tapered);
+  if (options.vessel && options.choose_shape)
+    if (const auto vessel =
+            fitVessel(problem, general.front().sigma, result.candidates))
+      result.candidates.push_back(*vessel);
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),
@@ -152,7 +156,7 @@ bool ViewFitOptions::isValid(std::string* why) const {
 const ShapeCandidate& ViewFit::straight() const {
   const auto found =
       std::find_if(candidates.begin(), candidates.end(), [](const auto& c) {
-        return c.shape != ShapeClass::TAPERED;
+        return c.shape != ShapeClass::TAPERED && c.shape != ShapeClass::VESSEL;
       });
   return found == candidates.end() ? chosen : *found;
 }
@@ -169,6 +173,8 @@ const char* toString(ShapeClass shape) {
     return "ellipsoid";
   case ShapeClass::TAPERED:
     return "tapered";
+  case ShapeClass::VESSEL:
+    return "vessel";
   }
   return "unknown";
 }

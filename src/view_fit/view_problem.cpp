@@ -82,7 +82,8 @@ bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   cost_.dilation_sigma = evidence.dilation_sigma / frame_.scale;
   if (evidence.viewpoint) {
     has_view_ = true;
-    view_ = -frame_.toUnit(*evidence.viewpoint).normalized();
+    eye_ = frame_.toUnit(*evidence.viewpoint);
+    view_ = -eye_->normalized();
     cost_.view = view_;
     cost_.half_width = halfWidthAcross(medium_, view_);
   }

@@ -53,6 +53,8 @@ public:
   bool hasView() const { return has_view_; }
   const Eigen::Vector3d& up() const { return up_; }
   const Eigen::Vector3d& view() const { return view_; }
+  const std::optional<Eigen::Vector3d>& eye() const { return eye_; }
+  const std::vector<TangentPlane>& tangents() const { return cost_.tangents; }
   double noise() const { return noise_; }
   double observations() const;
   const ViewFitOptions& options() const { return options_; }
@@ -64,6 +66,7 @@ private:
   PlaneCost cost_, few_;
   Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();   ///< unit length
   Eigen::Vector3d view_ = Eigen::Vector3d::UnitZ(); ///< away from the camera
+  std::optional<Eigen::Vector3d> eye_;              ///< the camera's place
   bool has_up_ = false, has_view_ = false;
   double noise_ = 0.0;
   double max_axis_ = 20.0;
@@ -94,6 +97,17 @@ std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
 void fitTaperAllPoints(const ViewProblem& problem,
                        double sigma,
                        ShapeCandidate& chosen);
+
+/** \brief The best open vessel, if no solid is near the points or the best one hides
+ * some of them. \param[in,out] candidates all solids; those pay for what they hide */
+std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
+                                        double sigma,
+                                        std::vector<ShapeCandidate>& candidates);
+
+/** \brief Last iterations of a vessel with all points. */
+void fitVesselAllPoints(const ViewProblem& problem,
+                        double sigma,
+                        ShapeCandidate& chosen);
 
 /** \brief Last iterations of the chosen family with all points. */
 void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);

@@ -207,6 +207,10 @@ void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chos
     fitTaperAllPoints(problem, sigma, chosen);
     return;
   }
+  if (chosen.shape == ShapeClass::VESSEL) {
+    fitVesselAllPoints(problem, sigma, chosen);
+    return;
+  }
   Trial t;
   t.sigma = sigma;
   t.model = chosen.model;

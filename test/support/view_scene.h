@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/line_intersection.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
 #include "random_superquadric.h"
@@ -14,6 +15,11 @@ namespace pcl_sq::test {
 inline double firstHit(const Superquadric& s,
                        const Eigen::Vector3d& from,
                        const Eigen::Vector3d& ray) {
+  if (s.isCut()) { // one may see into it
+    double at;
+    return pcl_sq::firstHit(s, from, ray, at) ? at
+                                              : std::numeric_limits<double>::infinity();
+  }
   // the box holds the body
   const double radius = s.halfSizes().norm();
   const double middle = ray.dot(s.center - from);
@@ -76,7 +82,8 @@ struct ViewScene {
   MultiSuperquadric tapered() const {
     MultiSuperquadric bodies = object;
     for (Superquadric& body : bodies.parts)
-      body.kx = body.ky = taper;
+      if (taper != 0.0)
+        body.kx = body.ky = taper;
     return bodies;
   }
   void render(double noise = 0.0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "visualization/display/display_surface.h"
 
-#include "geometry/taper.h"
+#include "geometry/open_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,9 +108,60 @@ bool isCorner(const ProfilePoint& p, double a, double b, double e) {
   return e > SHARP_ABOVE && (x == 0.0 || y == 0.0);
 }
 
+/** \brief The surface of a body with a rim: its smooth stretches apart, so that the
+ * rim's edges stay edges. */
+DisplaySurface openSurface(const Superquadric& s, int steps) {
+  const auto around = static_cast<std::uint32_t>(8 * steps / 2);
+  DisplaySurface surface;
+  const auto angle = [&](std::uint32_t k) { return 2.0 * M_PI * k / around; };
+  const auto stretches = detail::ringsOf(s, 2 * steps);
+  for (std::size_t part = 0; part < stretches.size(); ++part) {
+    const std::vector<detail::Ring>& rings = stretches[part];
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    const auto rows = static_cast<std::uint32_t>(rings.size());
+    for (std::uint32_t i = 0; i < rows; ++i)
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const detail::Ring &below = rings[i > 0 ? i - 1 : 0],
+                           &above = rings[std::min(i + 1, rows - 1)];
+        // an empty ring has no direction of its own: the normal is the axis
+        const detail::Ring& here = rings[i];
+        const auto on = [&](const detail::Ring& ring, double at) {
+          return detail::onRing(ring, s.epsilon2, at);
+        };
+        const Eigen::Vector3d round =
+            on(here, angle(k) + 1e-4) - on(here, angle(k) - 1e-4);
+        const Eigen::Vector3d up = on(above, angle(k)) - on(below, angle(k));
+        const Eigen::Vector3d normal =
+            here.section.empty() ? Eigen::Vector3d(0.0, 0.0, part == 0 ? -1.0 : 1.0)
+                                 : round.cross(up).stableNormalized().eval();
+        surface.vertices.push_back(s.toWorld(on(here, angle(k))));
+        surface.normals.push_back(s.rotation * normal);
+      }
+    const auto index = [&](std::uint32_t row, std::uint32_t column) {
+      return first + row * around + column % around;
+    };
+    for (std::uint32_t i = 0; i + 1 < rows; ++i)
+      for (std::uint32_t k = 0; k < around; ++k) {
+        surface.triangles.push_back(
+            {index(i, k), index(i, k + 1), index(i + 1, k + 1)});
+        surface.triangles.push_back(
+            {index(i, k), index(i + 1, k + 1), index(i + 1, k)});
+      }
+    if (part == 0)
+      continue;
+    std::vector<std::uint32_t> edge; // where this stretch leaves the one before
+    for (std::uint32_t k = 0; k <= around; ++k)
+      edge.push_back(index(0, k));
+    surface.edges.push_back(edge);
+  }
+  return surface;
+}
+
 } // namespace
 
 DisplaySurface displaySurface(const Superquadric& s, int steps) {
+  if (s.isCut())
+    return openSurface(s, steps);
   const Eigen::Vector3d a = s.semi_axes;
   // the meridian's radius is a share of the equator's: shape it with the larger one
   const double radius = std::max(a.x(), a.y());

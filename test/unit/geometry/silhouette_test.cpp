@@ -2,8 +2,8 @@
 #include "pcl_sq/silhouette.h"
 
 #include "pcl_sq/triangle_mesh.h"
-#include "plane_rows.h"
 #include "solver/levenberg_marquardt.h"
+#include "view_fit/plane_cost.h"
 #include "view_fit/plane_sums.h"
 #include "view_scene.h"
 

@@ -142,13 +142,13 @@ TEST(FitObject, MisfitOfAllFamiliesIsNoEvidenceForOne) {
   ObjectFitOptions options;
   options.max_parts = 1;
   // BIC over cost between families of as many parameters: 1, and less where none fits;
-  // but a taper has prior odds against it
+  // but a taper and a vessel have prior odds against them
   const auto worthOf = [](const ViewFit& fit) {
     std::vector<double> worth;
     for (const ShapeCandidate& a : fit.candidates)
       for (const ShapeCandidate& b : fit.candidates)
         if (a.parameters == b.parameters && a.cost > b.cost + 1.0 &&
-            a.shape != ShapeClass::TAPERED && b.shape != ShapeClass::TAPERED)
+            a.shape < ShapeClass::TAPERED && b.shape < ShapeClass::TAPERED)
           worth.push_back((a.bic - b.bic) / (a.cost - b.cost));
     return worth;
   };
@@ -245,7 +245,7 @@ TEST(FitObject, OrderOfThePointsDoesNotMatterMuch) {
 
 TEST(FitObject, PotIsOneTaperedPart) {
   ObjectFitOptions straight;
-  straight.fit.taper = false;
+  straight.fit.taper = straight.fit.vessel = false;
   ViewScene scene = fineScene();
   scene.addUpright({0.035, 0.035, 0.05}, 0.2, 1.0, 0.05);
   for (const double taper : {0.3, -0.3}) {

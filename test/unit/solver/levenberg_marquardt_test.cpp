@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/surface_area.h"
 #include "solver/gaussian_uniform.h"
 #include "solver/levenberg_marquardt.h"
+#include "solver/surface_area.h"
 
 #include "random_superquadric.h"
 

@@ -63,6 +63,7 @@ TEST(ViewFit, ResultDoesNotDependOnTheFrame) {
   ViewEvidence moved = evidence;
   moved.silhouette = move(evidence.silhouette);
   moved.tangents = move(evidence.tangents);
+  moved.limits = move(evidence.limits);
   moved.up = rotation * *evidence.up;
   moved.viewpoint = rotation * *evidence.viewpoint + shift;
   const Eigen::Matrix3Xd points = (rotation * observed.points).colwise() + shift;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/surface_area.h"
+#include "solver/surface_area.h"
 
 #include "geometry/gauge.h"
 

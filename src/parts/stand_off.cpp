@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// M22: a handle is what stands off a vessel.
+#include "parts/body_outline.h"
+#include "parts/object_piece.h"
+#include "pcl_sq/fit_superquadric.h"
+#include "sensor/local_quadric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t MIN_POINTS = 24;
+constexpr std::size_t MIN_CLUSTER = 8;    ///< of a handle's other arm
+constexpr double SAME_SIDE = 0.5;         ///< cosine of 60 degrees around the axis
+constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
+constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
+constexpr double MAX_COST = 9.2;          ///< of a point, as an outlier
+constexpr int PLANES = 48;                ///< of the body's outline
+constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
+
+/** \brief The body, larger by a margin on all sides. */
+Superquadric grown(Superquadric body, double margin) {
+  body.semi_axes.array() += margin;
+  return body;
+}
+
+/** \brief Sets of columns that hang together, the largest first. */
+std::vector<std::vector<int>> clustersOf(const Eigen::Matrix3Xd& points,
+                                         const std::vector<int>& columns,
+                                         double radius) {
+  std::vector<std::vector<int>> clusters;
+  std::vector<bool> taken(columns.size(), false);
+  for (std::size_t first = 0; first < columns.size(); ++first) {
+    if (taken[first])
+      continue;
+    taken[first] = true;
+    std::vector<int> cluster = {columns[first]};
+    for (std::size_t k = 0; k < cluster.size(); ++k)
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        if (!taken[j] &&
+            (points.col(columns[j]) - points.col(cluster[k])).squaredNorm() <
+                radius * radius) {
+          taken[j] = true;
+          cluster.push_back(columns[j]);
+        }
+    clusters.push_back(std::move(cluster));
+  }
+  std::sort(clusters.begin(), clusters.end(), [](const auto& a, const auto& b) {
+    return a.size() > b.size();
+  });
+  return clusters;
+}
+
+Eigen::Vector3d meanOf(const Eigen::Matrix3Xd& points,
+                       const std::vector<int>& columns) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const int i : columns)
+    mean += points.col(i) / double(columns.size());
+  return mean;
+}
+
+/** \brief The points that stand off a body on one side: the largest cluster, and those
+ * on the same side of the axis, the other arm of a handle. */
+std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
+                         const Superquadric& body,
+                         const std::vector<std::vector<int>>& clusters) {
+  std::vector<int> side;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (const std::vector<int>& cluster : clusters) {
+    Eigen::Vector3d away = body.toLocal(meanOf(points, cluster));
+    away.z() = 0.0;
+    away.normalize();
+    if (side.empty())
+      direction = away;
+    else if (cluster.size() < MIN_CLUSTER || away.dot(direction) < SAME_SIDE)
+      continue;
+    side.insert(side.end(), cluster.begin(), cluster.end());
+  }
+  std::sort(side.begin(), side.end());
+  return side;
+}
+
+/** \brief The ellipsoid around the points of a handle, an axis outwards from the body:
+ * what is left to say where no fit comes near the points. */
+Superquadric aroundPoints(const Eigen::Matrix3Xd& points,
+                          const std::vector<int>& columns,
+                          const Superquadric& body) {
+  Superquadric s;
+  const Eigen::Vector3d up = body.rotation.col(2);
+  Eigen::Vector3d away = meanOf(points, columns) - body.center;
+  away = (away - up * up.dot(away)).normalized();
+  s.rotation << away, up.cross(away), up;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const int i : columns) {
+    const Eigen::Vector3d p = s.rotation.transpose() * points.col(i);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  s.center = s.rotation * (0.5 * (low + high));
+  s.semi_axes = 0.5 * (high - low).cwiseMax(0.05 * (high - low).maxCoeff());
+  return s;
+}
+
+} // namespace
+
+bool standsOff(const PieceContext& context,
+               const Piece& piece,
+               Piece& body_piece,
+               Piece& handle) {
+  const ObservedObject& o = context.observed;
+  if (piece.fit.chosen.shape != ShapeClass::VESSEL)
+    return false;
+  const Superquadric& body = piece.fit.fit.model;
+  std::vector<int> off;
+  const Eigen::VectorXd distances =
+      surfaceDistances(body, gather(context, piece.points));
+  for (std::size_t k = 0; k < piece.points.size(); ++k)
+    if (distances[Eigen::Index(k)] > STANDS_OFF * context.noise &&
+        !body.contains(o.points.col(piece.points[k])))
+      off.push_back(piece.points[k]);
+  off = oneSide(o.points, body, clustersOf(o.points, off, LINKED * o.extent));
+  if (off.size() < MIN_POINTS || 2 * off.size() > piece.points.size())
+    return false;
+  body_piece = handle = {};
+  handle.points = off;
+  handle.stands = false;
+  std::set_difference(piece.points.begin(),
+                      piece.points.end(),
+                      off.begin(),
+                      off.end(),
+                      std::back_inserter(body_piece.points));
+  body_piece.ends = piece.ends;
+  if (!o.hasCamera())
+    return true;
+  // an outline beside the body is the handle's; where they meet it is nobody's
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy);
+  const BodyOutline near(grown(body, EDGE * pixel), o.camera.center, PLANES),
+      far(grown(body, JOINT * pixel), o.camera.center, PLANES);
+  const auto meets = [&o](const BodyOutline& outline, const Eigen::Vector2d& p) {
+    return !outline.misses(o.camera.ray(p));
+  };
+  for (const Eigen::Vector2d& p : piece.pixels)
+    (meets(near, p) ? body_piece : handle).pixels.push_back(p);
+  const auto addForeign = [](Piece& to, const Eigen::Vector2d& pixel_of_other) {
+    ContourPoint foreign;
+    foreign.pixel = pixel_of_other;
+    foreign.own = false;
+    to.contour.push_back(foreign);
+  };
+  for (const ContourPoint& p : piece.contour) {
+    if (!meets(near, p.pixel))
+      handle.contour.push_back(p);
+    else
+      body_piece.contour.push_back(p);
+  }
+  for (const Eigen::Vector2d& p : handle.pixels)
+    if (meets(far, p)) {
+      addForeign(handle, p);
+      addForeign(body_piece, p);
+    }
+  return true;
+}
+
+double scatter(const PieceContext& context, const Piece& piece) {
+  constexpr std::size_t MOST = 1000;
+  constexpr double MEDIAN_OF_NORMAL = 0.6745;
+  const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
+  std::vector<int> some;
+  for (std::size_t i = 0; i < piece.points.size(); i += step)
+    some.push_back(piece.points[i]);
+  const Eigen::VectorXd all =
+      surfaceDistances(piece.fit.fit.model, gather(context, some)).cwiseAbs();
+  std::vector<double> distances(all.data(), all.data() + all.size());
+  return median(std::move(distances)) / MEDIAN_OF_NORMAL;
+}
+
+void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body) {
+  fitPiece(context, handle, Effort::FULL);
+  const Eigen::Matrix3Xd points = gather(context, handle.points);
+  const Superquadric& found = handle.fit.fit.model;
+  const Superquadric around =
+      aroundPoints(context.observed.points, handle.points, body);
+  const auto costOf = [&](const Superquadric& s) {
+    double cost = 0.0;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      cost += std::min(std::pow(s.footPointDistance(points.col(i)) / context.noise, 2),
+                       MAX_COST);
+    return cost / double(points.cols());
+  };
+  const Eigen::Vector3d size = found.boundingBox().sizes();
+  const bool near = handle.fit.fit.ok() &&
+                    (found.center - around.center).norm() <
+                        around.semi_axes.norm() + STANDS_OFF * context.noise &&
+                    size.norm() < 4.0 * around.semi_axes.norm() &&
+                    costOf(found) < 0.5 * MAX_COST;
+  if (near)
+    return;
+  ShapeCandidate c;
+  c.shape = ShapeClass::ELLIPSOID;
+  c.model = around;
+  c.parameters = 9;
+  c.cost = costOf(around) * context.observed.effective_points * double(points.cols()) /
+           double(context.observed.points.cols());
+  handle.fit.candidates = {c};
+  handle.fit.chosen = c;
+  handle.fit.fit.model = around;
+  handle.fit.fit.points = handle.points.size();
+  handle.fit.fit.termination = Termination::COST_CHANGE_TOO_SMALL;
+  handle.misfit = c.cost;
+  handle.score =
+      c.cost + c.parameters * std::log(1.0 + context.observed.effective_points);
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view_fit/vessel_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr double MAX_EPSILON = 1.5; ///< a vessel's wall is not pinched
+constexpr double MIN_RIM = -0.9, MAX_RIM = 0.97;
+constexpr double MAX_TAPER = 0.9;
+constexpr double TRUST = 0.5, RIM_TRUST = 0.3; ///< largest steps
+/** \brief Of the wall, over the rim's radius and the depth: a body with a floor as
+ * thick as it is high is a solid in disguise. */
+constexpr double MOST_WALL = 0.3;
+/** \brief Logarithm of the wall's thickness over the radius, and its deviation: pots,
+ * bowls, mugs and glasses have 0.04 to 0.12. It decides where one side is seen. */
+constexpr double LOG_WALL = -2.7, LOG_WALL_SIGMA = 0.5;
+/** \brief Density of outlines that are not the vessel's, a handle's for instance, over
+ * the Gaussian's peak, as for the points. */
+constexpr double OUTLIER = 0.01;
+
+/** \brief The profile's places alone. */
+struct Places {
+  std::array<Eigen::Vector2d, VesselProfile::OUTER + 2> outside;
+  std::array<Eigen::Vector2d, VesselProfile::INNER + 2> inside;
+};
+
+double latitude(double height, double epsilon) {
+  return std::copysign(
+      std::asin(std::pow(std::min(std::abs(height), 1.0), 1.0 / epsilon)), height);
+}
+
+Places placesOf(const Superquadric& s) {
+  Places p;
+  const double a = s.semi_axes.x(), a3 = s.semi_axes.z();
+  const auto at = [&](double eta, double inset) {
+    const double sine = std::sin(eta);
+    const double h = std::copysign(std::pow(std::abs(sine), s.epsilon1), sine);
+    const double cosine = std::cos(eta); // at the pole not quite zero
+    const double g = cosine > 1e-12 ? std::pow(cosine, s.epsilon1) : 0.0;
+    return Eigen::Vector2d(std::max(a * (1.0 + s.kx * h) * g - inset, 0.0), a3 * h);
+  };
+  const double top = latitude(s.rim, s.epsilon1);
+  for (int i = 0; i <= VesselProfile::OUTER; ++i)
+    p.outside[std::size_t(i)] =
+        at(-M_PI_2 + (top + M_PI_2) * i / VesselProfile::OUTER, 0.0);
+  const double floor = latitude(std::min(s.wall / a3 - 1.0, s.rim), s.epsilon1);
+  for (int i = 0; i <= VesselProfile::INNER; ++i)
+    p.inside[std::size_t(i + 1)] =
+        at(floor + (top - floor) * i / VesselProfile::INNER, s.wall);
+  p.inside[0] = {0.0, p.inside[1].y()};
+  p.outside[VesselProfile::OUTER + 1] = p.inside[VesselProfile::INNER + 1];
+  return p;
+}
+
+/** \brief A vessel with one of its shape's parameters moved. */
+Superquadric nudged(Superquadric s, int i, double step) {
+  switch (i) {
+  case 0:
+    s.semi_axes.head<2>() *= std::exp(step);
+    break;
+  case 1:
+    s.semi_axes.z() *= std::exp(step);
+    break;
+  case 2:
+    s.epsilon1 += step;
+    break;
+  case 3:
+    s.kx += step;
+    s.ky = s.kx;
+    break;
+  case 4:
+    s.rim += step;
+    break;
+  default:
+    s.wall *= std::exp(step);
+  }
+  return s;
+}
+
+/** \brief The nearest place of a polyline. */
+struct Foot {
+  double distance = 1e300;
+  const ProfileVertex* from = nullptr; ///< of the chord
+  double share = 0.0;                  ///< along it
+  Eigen::Vector2d at;
+};
+
+template <std::size_t COUNT>
+void takeNearest(const std::array<ProfileVertex, COUNT>& line,
+                 const Eigen::Vector2d& p,
+                 Foot& foot) {
+  double least = foot.distance * foot.distance;
+  for (std::size_t i = 0; i + 1 < COUNT; ++i) {
+    const Eigen::Vector2d side = line[i + 1].at - line[i].at, to = p - line[i].at;
+    const double length = side.squaredNorm();
+    const double share =
+        length > 0.0 ? std::clamp(to.dot(side) / length, 0.0, 1.0) : 0.0;
+    const double square = (to - share * side).squaredNorm();
+    if (square < least) {
+      least = square;
+      foot.from = &line[i];
+      foot.share = share;
+    }
+  }
+  foot.distance = std::sqrt(least);
+  if (foot.from)
+    foot.at = (1.0 - foot.share) * foot.from[0].at + foot.share * foot.from[1].at;
+}
+
+bool outOf(double value, double low, double high, double direction) {
+  return (value <= low && direction < 0.0) || (value >= high && direction > 0.0);
+}
+
+} // namespace
+
+VesselProfile::VesselProfile(const Superquadric& s) {
+  constexpr double STEP = 1e-5;
+  const Places here = placesOf(s);
+  for (std::size_t i = 0; i < outside.size(); ++i)
+    outside[i].at = here.outside[i];
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i].at = here.inside[i];
+  for (int k = 0; k < 6; ++k) {
+    const Places there = placesOf(nudged(s, k, STEP));
+    for (std::size_t i = 0; i < outside.size(); ++i)
+      outside[i].d.col(k) = (there.outside[i] - here.outside[i]) / STEP;
+    for (std::size_t i = 0; i < inside.size(); ++i)
+      inside[i].d.col(k) = (there.inside[i] - here.inside[i]) / STEP;
+  }
+}
+
+VesselProblem::VesselProblem(const ViewProblem& problem,
+                             const UnitPoints& points,
+                             double sigma,
+                             PlaneCost planes)
+    : points_(points), limits_(problem.limits(sigma)), planes_(std::move(planes)),
+      eye_(problem.eye()),
+      pixel_(planes_.silhouette.empty() ? 0.0 : planes_.silhouette.front().sigma) {}
+
+VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
+  Equations e;
+  const VesselProfile profile(s);
+  addPoints(s, profile, e);
+  e.points_cost = e.cost;
+  addPlanes(s, profile, e);
+  Vector wall = Vector::Zero();
+  wall[10] = 1.0;
+  wall[5] = -1.0;
+  const double prior = std::log(s.wall / s.semi_axes.x()) - LOG_WALL;
+  e.addRow(planes_.unit / LOG_WALL_SIGMA * wall, planes_.unit / LOG_WALL_SIGMA * prior);
+  return e;
+}
+
+double VesselProblem::insideShare(const Superquadric& s) const {
+  const VesselProfile profile(s);
+  double inside = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d p = s.toLocal(points_[i].cast<double>());
+    const Eigen::Vector2d place(p.head<2>().norm(), p.z());
+    Foot outer, inner;
+    takeNearest(profile.outside, place, outer);
+    takeNearest(profile.inside, place, inner);
+    inside += inner.distance < outer.distance;
+  }
+  return inside / double(points_.size());
+}
+
+void VesselProblem::addPoints(const Superquadric& s,
+                              const VesselProfile& profile,
+                              Equations& e) const {
+  const RobustCost density{limits_.sigma > 0.0 ? limits_.sigma : 1.0, limits_.outlier};
+  const float* precision = points_.view().precision;
+  const double rim = profile.rimHeight(), opening = profile.opening();
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
+  const bool above = eye_ && (eye = s.toLocal(*eye_)).z() > rim;
+  const double margin = 2.0 * pixel_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d p = s.toLocal(points_[i].cast<double>());
+    bool outer = true, inner = !eye_;
+    if (above && p.z() < eye.z()) {
+      const double along = (rim - eye.z()) / (p.z() - eye.z());
+      const double crossing = (eye + along * (p - eye)).head<2>().norm();
+      inner = crossing < opening + margin;
+      outer = crossing > opening - margin;
+    }
+    const double rho = p.head<2>().norm();
+    const Eigen::Vector2d place(rho, p.z());
+    Foot foot;
+    if (outer)
+      takeNearest(profile.outside, place, foot);
+    if (inner)
+      takeNearest(profile.inside, place, foot);
+    if (!foot.from)
+      continue;
+    Eigen::Vector2d n = place - foot.at;
+    if (foot.distance > 1e-9)
+      n /= foot.distance;
+    else {
+      const Eigen::Vector2d side = foot.from[1].at - foot.from[0].at;
+      n = Eigen::Vector2d(side.y(), -side.x()).normalized();
+    }
+    const Eigen::Vector3d normal(rho > 0.0 ? n.x() * p.x() / rho : n.x(),
+                                 rho > 0.0 ? n.x() * p.y() / rho : 0.0,
+                                 n.y());
+    Vector row;
+    row.head<3>() = -normal;
+    row.segment<2>(3) = normal.cross(p).head<2>();
+    row.tail<6>() = -((1.0 - foot.share) * (n.transpose() * foot.from[0].d) +
+                      foot.share * (n.transpose() * foot.from[1].d))
+                         .transpose();
+    const double q = precision ? double(precision[i]) : 1.0;
+    const double square = q * foot.distance * foot.distance;
+    double share;
+    e.cost += density.cost(square, share);
+    e.share += share;
+    e.weighted += share * square;
+    e.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row, share * q);
+    e.jtr += share * q * foot.distance * row;
+  }
+  e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
+}
+
+void VesselProblem::addPlanes(const Superquadric& s,
+                              const VesselProfile& profile,
+                              Equations& e) const {
+  const auto touching = [&](const Eigen::Vector3d& n) {
+    const double across = n.head<2>().norm();
+    const ProfileVertex* farthest = nullptr;
+    double most = -1e300;
+    for (const ProfileVertex& v : profile.outside) {
+      const double reach = across * v.at.x() + n.z() * v.at.y();
+      if (reach > most) {
+        most = reach;
+        farthest = &v;
+      }
+    }
+    return farthest;
+  };
+  const auto row = [&](const Eigen::Vector3d& normal) {
+    const Eigen::Vector3d n = s.rotation.transpose() * normal;
+    const double across = n.head<2>().norm();
+    const ProfileVertex& v = *touching(n);
+    Eigen::Vector3d at(0.0, 0.0, v.at.y());
+    if (across > 0.0)
+      at.head<2>() = v.at.x() / across * n.head<2>();
+    PlaneRow<N> r;
+    r.reach = normal.dot(s.center) + n.dot(at);
+    r.derivatives.head<3>() = n;
+    r.derivatives.segment<2>(3) = at.cross(n).head<2>();
+    r.derivatives.tail<6>() = (across * v.d.row(0) + n.z() * v.d.row(1)).transpose();
+    return r;
+  };
+  const auto reach = [&](const Eigen::Vector3d& n) { return row(n).reach; };
+  PlaneCost others = planes_;
+  others.silhouette.clear();
+  addPlaneCost<N>(others, row, reach, e);
+  // the outline may be a handle's here and there: robust, as the points are
+  const double unit = planes_.unit;
+  const RobustCost density{1.0, OUTLIER};
+  Vector slope = Vector::Zero();
+  double sum = 0.0, weight_of_all = 0.0;
+  for (const TangentPlane& plane : planes_.silhouette) {
+    const PlaneRow<N> r = row(plane.normal);
+    const double z = (r.reach - plane.offset) / plane.sigma;
+    double share;
+    e.cost += unit * unit * density.cost(z * z, share);
+    const Vector weighted = unit / plane.sigma * r.derivatives;
+    e.jtj.noalias() += share * weighted * weighted.transpose();
+    e.jtr += share * unit * z * weighted;
+    sum += share * unit * z / plane.sigma;
+    weight_of_all += share / (plane.sigma * plane.sigma);
+    slope += share / plane.sigma * weighted;
+  }
+  if (planes_.dilation_sigma > 0.0 && weight_of_all > 0.0) {
+    const double precision =
+        weight_of_all + 1.0 / (planes_.dilation_sigma * planes_.dilation_sigma);
+    e.jtj.noalias() -= slope * slope.transpose() / precision;
+    e.jtr -= slope * (sum / precision);
+    e.cost -= sum * sum / precision;
+  }
+}
+
+Superquadric
+VesselProblem::moved(const Superquadric& m, const Vector& step, bool& limited) const {
+  Vector s = step;
+  const auto shorten = [&](int begin, int size, double trust) {
+    double largest = 0.0;
+    for (int k = begin; k < begin + size; ++k)
+      largest = std::max(largest, std::abs(s[k]));
+    if (!(largest > trust))
+      return;
+    for (int k = begin; k < begin + size; ++k)
+      s[k] *= trust / largest;
+    limited = true;
+  };
+  limited = false;
+  shorten(0, 3, TRUST * m.semi_axes.maxCoeff());
+  shorten(3, 2, TRUST);
+  shorten(5, 2, TRUST);
+  shorten(7, 1, TRUST);
+  shorten(8, 2, RIM_TRUST);
+  shorten(10, 1, TRUST);
+  Superquadric next = m;
+  next.center += m.rotation * s.head<3>();
+  const Eigen::Vector3d turn(s[3], s[4], 0.0);
+  if (turn.norm() > 0.0)
+    next.rotation *=
+        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  const auto axis = [&](double a, double ds) {
+    return std::clamp(a * std::exp(ds), limits_.min_axis, limits_.max_axis);
+  };
+  next.semi_axes.x() = next.semi_axes.y() = axis(m.semi_axes.x(), s[5]);
+  next.semi_axes.z() = axis(m.semi_axes.z(), s[6]);
+  next.epsilon1 = std::clamp(m.epsilon1 + s[7], limits_.min_epsilon, MAX_EPSILON);
+  next.kx = next.ky = std::clamp(m.kx + s[8], -MAX_TAPER, MAX_TAPER);
+  next.rim = std::clamp(m.rim + s[9], MIN_RIM, MAX_RIM);
+  next.wall = m.wall * std::exp(s[10]);
+  // open at the rim, and deeper than its wall
+  const double radius =
+      next.semi_axes.x() * (1.0 + next.kx * next.rim) *
+      std::pow(1.0 - std::pow(std::abs(next.rim), 2.0 / next.epsilon1),
+               0.5 * next.epsilon1);
+  next.wall = std::min({next.wall,
+                        MOST_WALL * radius,
+                        MOST_WALL * next.semi_axes.z() * (1.0 + next.rim)});
+  return next;
+}
+
+bool VesselProblem::isActiveBound(const Superquadric& m,
+                                  const Vector& direction) const {
+  return outOf(m.semi_axes.x(), limits_.min_axis, limits_.max_axis, direction[5]) ||
+         outOf(m.semi_axes.z(), limits_.min_axis, limits_.max_axis, direction[6]) ||
+         outOf(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[7]) ||
+         outOf(m.kx, -MAX_TAPER, MAX_TAPER, direction[8]) ||
+         outOf(m.rim, MIN_RIM, MAX_RIM, direction[9]);
+}
+
+Basis<VesselProblem::N> vesselBasis(bool upright) {
+  Basis<VesselProblem::N> basis =
+      Basis<VesselProblem::N>::Identity(VesselProblem::N, VesselProblem::N);
+  if (!upright)
+    return basis;
+  Basis<VesselProblem::N> held =
+      Basis<VesselProblem::N>::Zero(VesselProblem::N, VesselProblem::N - 2);
+  int column = 0;
+  for (int k = 0; k < VesselProblem::N; ++k)
+    if (k != 3 && k != 4)
+      held.col(column++) = basis.col(k);
+  return held;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Least squares over the parameters of an open vessel of revolution.
+#pragma once
+
+#include "view_fit/view_problem.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace pcl_sq::detail {
+
+/** \brief A Gaussian of peak one beside a uniform density c (M5); what kernels::Mixture
+ * says for one residual. */
+struct RobustCost {
+  double sigma, c;
+
+  /** \brief -2 sigma^2 ln of the density over the largest, which is the square itself
+   * for c = 0. \param[out] share of the Gaussian in the density */
+  double cost(double square, double& share) const {
+    share = 1.0;
+    if (!(c > 0.0))
+      return square;
+    const double s = 0.5 / (sigma * sigma);
+    const double density = std::exp(-s * square);
+    share = density / (density + c);
+    return (std::log1p(c) - std::log(density + c)) / s;
+  }
+};
+
+/** \brief A place of a vessel's meridian, (distance from the axis, height), with its
+ * derivatives for ln a, ln a3, e1, k, rim, ln wall. */
+struct ProfileVertex {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
+};
+
+/** \brief The meridian of a vessel as two polylines: what may be seen from outside (the
+ * outer wall from the pole below to the rim, and the rim), and what through the opening
+ * (the floor from its middle, and the inner wall up to the rim). */
+struct VesselProfile {
+  static constexpr int OUTER = 20, INNER = 12; ///< steps of the walls
+  std::array<ProfileVertex, OUTER + 2> outside;
+  std::array<ProfileVertex, INNER + 2> inside;
+
+  explicit VesselProfile(const Superquadric& s);
+  double rimHeight() const { return outside[OUTER].at.y(); }
+  double opening() const { return inside[INNER + 1].at.x(); } ///< radius
+};
+
+/** \brief M21: points, planes and the wall's prior, as minimiseSquares() wants them.
+ *
+ * Which wall a point lies on is told by its ray, not by what is near: the camera sees
+ * the inside where the ray comes through the opening. Without a camera, or within a
+ * pixel of the opening's edge, the nearest counts.
+ *
+ * Parameters: t (3, along the own axes), w (2, about x and y), ln a, ln a3, e1, k, rim,
+ * ln wall. */
+class VesselProblem {
+public:
+  static constexpr int N = 11;
+  using Model = Superquadric;
+  using Equations = SquareSums<N>;
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  /** \param[in] points of the problem or fewer; kept by reference
+   * \param[in] planes of the same number of points */
+  VesselProblem(const ViewProblem& problem,
+                const UnitPoints& points,
+                double sigma,
+                PlaneCost planes);
+
+  Equations evaluate(const Superquadric& model) const;
+  Superquadric moved(const Superquadric& m, const Vector& step, bool& limited) const;
+  bool isActiveBound(const Superquadric& m, const Vector& direction) const;
+  double rounding() const { return 1e-14 * double(points_.size()); }
+  /** \brief Share of the points that lie nearer to the inside than to the outside. */
+  double insideShare(const Superquadric& model) const;
+  const PlaneCost& planes() const { return planes_; }
+  double sigma() const { return limits_.sigma; }
+
+private:
+  void
+  addPoints(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
+  void
+  addPlanes(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
+
+  const UnitPoints& points_;
+  LmOptions limits_;
+  PlaneCost planes_;
+  std::optional<Eigen::Vector3d> eye_;
+  double pixel_; ///< size of a pixel at the object
+};
+
+/** \brief Free directions: all, or without the axis's turns where it is upright. */
+Basis<VesselProblem::N> vesselBasis(bool upright);
+
+} // namespace pcl_sq::detail

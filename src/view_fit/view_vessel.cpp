@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The family of open vessels: bowls, cups, pots, plates.
+#include "view_fit/shape_spaces.h"
+#include "view_fit/vessel_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
+constexpr double OUTLIER = 0.01;
+/** \brief Least share of a whole cloud's points on either side of a vessel's wall. */
+constexpr double BOTH_SIDES = 0.15;
+/** \brief A wall is told from noise by so many sigmas. */
+constexpr double RESOLVED = 3.0;
+/** \brief Things are no vessels: how far they are off, in the points' deviation; and
+ * the share of the points within so many of those that a vessel with a handle explains.
+ */
+constexpr double MODEL_ERROR = 0.01, STANDS_OFF = 4.0, EXPLAINED = 0.85;
+constexpr double MIN_SIGMA = 1e-3; ///< of points without noise, in their deviation
+/** \brief Share of the points that a solid hides, from which on they are no outliers.
+ */
+constexpr double SEEN_BEHIND = 0.02;
+constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behind
+constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
+constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
+constexpr std::size_t KEPT = 2; ///< starts that are refined
+constexpr double CUT = 0.02;    ///< share of the points beyond an extent's end
+
+/** \brief Profiles of household vessels: cup, pot or plate, bowl. */
+struct Kind {
+  double epsilon1, taper, rim;
+};
+constexpr std::array<Kind, 4> KINDS = {
+    {{0.15, 0.05, 0.9}, {0.2, 0.3, 0.9}, {0.5, 0.2, 0.6}, {1.0, 0.0, 0.05}}};
+
+struct Interval {
+  double low, high;
+  double middle() const { return 0.5 * (low + high); }
+  double half() const { return 0.5 * (high - low); }
+};
+
+Interval extentAlong(const UnitPoints& points, const Eigen::Vector3d& axis) {
+  std::vector<double> along(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    along[i] = axis.dot(points[i].cast<double>());
+  const auto cut = static_cast<std::ptrdiff_t>(CUT * double(along.size()));
+  std::nth_element(along.begin(), along.begin() + cut, along.end());
+  const double low = along[std::size_t(cut)];
+  std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+  return {low, *(along.end() - 1 - cut)};
+}
+
+/** \brief Vessels around the points with a given axis, from the bottom up. */
+std::vector<Superquadric> vesselStarts(const ViewProblem& p,
+                                       const Eigen::Vector3d& up) {
+  Superquadric s;
+  s.rotation.col(2) = up;
+  s.rotation.col(0) =
+      p.hasView() ? up.cross(p.view()).stableNormalized() : up.unitOrthogonal();
+  if (!(s.rotation.col(0).norm() > 0.5)) // seen along the axis
+    s.rotation.col(0) = up.unitOrthogonal();
+  s.rotation.col(1) = up.cross(s.rotation.col(0));
+  // from the near outside to the far inside, and from side to side
+  const Interval across = extentAlong(p.medium(), s.rotation.col(0)),
+                 deep = extentAlong(p.medium(), s.rotation.col(1));
+  Interval high = extentAlong(p.medium(), up);
+  for (const TangentPlane& plane : p.tangents())
+    if (plane.normal.dot(up) < -UPRIGHT)
+      high.low = std::min(-plane.offset, high.high - 1e-3);
+  const double radius = std::max(across.half(), 1e-3);
+  std::vector<Superquadric> starts;
+  for (const Kind& kind : KINDS) {
+    s.epsilon1 = kind.epsilon1;
+    s.epsilon2 = 1.0;
+    s.kx = s.ky = kind.taper;
+    s.rim = kind.rim;
+    const double growth =
+        (1.0 + kind.taper * kind.rim) *
+        std::pow(1.0 - std::pow(kind.rim, 2.0 / kind.epsilon1), 0.5 * kind.epsilon1);
+    const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
+    s.semi_axes = {radius / growth, radius / growth, a3};
+    s.wall = std::min(0.07 * radius, 0.3 * a3);
+    s.center = across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1) +
+               (high.low + a3) * up;
+    starts.push_back(s);
+  }
+  return starts;
+}
+
+struct Vessel {
+  Superquadric model;
+  double cost = 1e300; ///< over sigma^2
+  bool upright = false;
+};
+
+class VesselFamily {
+public:
+  VesselFamily(const ViewProblem& problem, const UnitPoints& points, double sigma)
+      : least_squares_(problem, points, sigma, problem.planes(sigma, points)) {}
+
+  Vessel fit(const Vessel& start, int iterations) const {
+    LmLimits limits;
+    limits.max_iterations = iterations;
+    limits.cost_tolerance = 1e-5;
+    auto found = minimiseSquares(
+        least_squares_, start.model, vesselBasis(start.upright), limits);
+    found.model.rotation =
+        Eigen::Quaterniond(found.model.rotation).normalized().toRotationMatrix();
+    if (!found.model.isValid())
+      return {start.model, 1e300, start.upright};
+    const double unit = least_squares_.planes().unit;
+    return {found.model, found.equations.cost / (unit * unit), start.upright};
+  }
+
+  double insideShare(const Superquadric& model) const {
+    return least_squares_.insideShare(model);
+  }
+
+private:
+  VesselProblem least_squares_;
+};
+
+ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
+  ShapeCandidate c;
+  c.shape = ShapeClass::VESSEL;
+  c.before = ShapeClass::ROTATIONAL;
+  c.upright = v.upright;
+  c.parameters = static_cast<int>(vesselBasis(v.upright).cols());
+  c.cost = v.cost;
+  c.bic = c.cost + c.parameters * std::log(problem.observations()) + VESSEL;
+  c.model = v.model;
+  return c;
+}
+
+/** \brief What a solid cannot explain: points behind the surface that the camera sees.
+ */
+struct Hidden {
+  double share = 0.0; ///< of the points
+  double cost = 0.0;  ///< by which they are no better than outliers
+};
+
+Hidden
+hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body) {
+  Hidden hidden;
+  if (!problem.eye())
+    return hidden;
+  const UnitPoints& points = problem.medium();
+  UnitPoints nearer;
+  nearer.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = points[i].cast<double>();
+    const Eigen::Vector3f q =
+        (p + BEHIND * sigma * (*problem.eye() - p).normalized()).cast<float>();
+    nearer.add(q.x(), q.y(), q.z());
+  }
+  std::vector<float> there(points.size() + kernels::BLOCK), here(there.size());
+  residualsOf(body, nearer, kernels::Residual::FOOT_POINT, there.data());
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, here.data());
+  const LmOptions limits = problem.limits(sigma);
+  const RobustCost density{sigma, limits.outlier};
+  const float* precision = points.view().precision;
+  double cost = 0.0, count = 0.0, share;
+  const double outlier = density.cost(1e6 * sigma * sigma, share);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(double(there[i]) < -sigma))
+      continue;
+    const double q = precision ? double(precision[i]) : 1.0;
+    count += 1.0;
+    cost += outlier - density.cost(q * double(here[i]) * double(here[i]), share);
+  }
+  const double unit = problem.planes(sigma, points).unit;
+  hidden.share = count / double(points.size());
+  hidden.cost = cost / (unit * unit);
+  return hidden;
+}
+
+/** \brief Sigma of the points about a body: what the mixture makes of their distances.
+ */
+template <typename Distance>
+double scatterOf(const UnitPoints& points, double sigma, const Distance& distance) {
+  constexpr int ROUNDS = 8;
+  std::vector<double> squares(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    squares[i] = std::pow(distance(i), 2);
+  for (int round = 0; round < ROUNDS; ++round) {
+    const RobustCost density{sigma, OUTLIER};
+    double shares = 0.0, weighted = 0.0, share;
+    for (const double square : squares) {
+      density.cost(square, share);
+      shares += share;
+      weighted += share * square;
+    }
+    sigma = std::max(std::sqrt(weighted / std::max(shares, 1.0)), MIN_SIGMA);
+  }
+  return sigma;
+}
+
+double scatterOf(const UnitPoints& points, double sigma, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  return scatterOf(points, sigma, [&](std::size_t i) { return double(distances[i]); });
+}
+
+/** \brief Share of the points that are near a body. */
+double nearShare(const UnitPoints& points, double reach, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  double near = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    near += std::abs(double(distances[i])) <= reach;
+  return near / double(points.size());
+}
+
+/** \brief A vessel beside a solid where nobody knows the noise: that of points on both
+ * sides of a wall looks as large as the wall is thick. Each has the noise that it
+ * leaves, sigma, and -2 ln L is 2 n ln sigma. */
+std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
+                                           double sigma,
+                                           Vessel vessel,
+                                           const ShapeCandidate& solid) {
+  constexpr int ROUNDS = 3;
+  const UnitPoints& points = problem.medium();
+  double own = sigma;
+  for (int round = 0; round < ROUNDS; ++round) {
+    own = std::min(own, scatterOf(points, own, vessel.model));
+    vessel = VesselFamily(problem, points, own).fit(vessel, ITERATIONS);
+  }
+  const double inside = VesselFamily(problem, points, own).insideShare(vessel.model);
+  if (!(vessel.cost < 1e299) || std::min(inside, 1.0 - inside) < BOTH_SIDES ||
+      vessel.model.wall < RESOLVED * own ||
+      nearShare(points, STANDS_OFF * std::max(own, MODEL_ERROR), vessel.model) <
+          EXPLAINED)
+    return std::nullopt;
+  const double gain = 2.0 * problem.observations() *
+                      std::log(scatterOf(points, sigma, solid.model) /
+                               scatterOf(points, own, vessel.model));
+  ShapeCandidate c = candidateOf(vessel, problem);
+  c.bic += solid.cost - gain - c.cost;
+  c.cost = std::min(problem.observations(), solid.cost);
+  return c;
+}
+
+bool cheaper(const Vessel& a, const Vessel& b) {
+  return a.cost < b.cost;
+}
+
+/** \brief Whether a vessel is better than all solids, which pay for what they hide. It
+ * is compared as scaleEvidence() will do. \param[in,out] solids where it is, their
+ * costs become those */
+bool beatsSolids(const ViewProblem& problem,
+                 double sigma,
+                 const ShapeCandidate& vessel,
+                 std::vector<ShapeCandidate>& solids) {
+  std::vector<ShapeCandidate> paying = solids;
+  double least = vessel.cost;
+  for (ShapeCandidate& c : paying) {
+    const double cost = hiddenPoints(problem, sigma, c.model).cost;
+    c.cost += cost;
+    c.bic += cost;
+    least = std::min(least, c.cost);
+  }
+  const double inflation = std::max(1.0, least / problem.observations());
+  const auto scaled = [&](const ShapeCandidate& c) {
+    return c.bic - c.cost * (1.0 - 1.0 / inflation);
+  };
+  for (const ShapeCandidate& c : paying)
+    if (!(scaled(vessel) < scaled(c)))
+      return false;
+  solids = std::move(paying);
+  return true;
+}
+
+} // namespace
+
+std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
+                                        double sigma,
+                                        std::vector<ShapeCandidate>& candidates) {
+  const ShapeCandidate* best = nullptr;
+  for (const ShapeCandidate& c : candidates)
+    if (!best || c.cost < best->cost)
+      best = &c;
+  if (!best)
+    return std::nullopt;
+  if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
+    return std::nullopt;
+  std::vector<Eigen::Vector3d> axes;
+  if (problem.hasUp())
+    axes.push_back(problem.up());
+  else
+    for (int k = 0; k < 3; ++k)
+      for (const double sign : {1.0, -1.0})
+        axes.emplace_back(sign * best->model.rotation.col(k));
+  const VesselFamily rough(
+      problem, problem.coarse(), std::max(WIDE, 2.0 * problem.noise()));
+  std::vector<Vessel> found;
+  for (const Eigen::Vector3d& axis : axes)
+    for (const Superquadric& start : vesselStarts(problem, axis))
+      found.push_back(rough.fit({start, 0.0, problem.hasUp()}, SEARCH_ITERATIONS));
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), KEPT));
+  const VesselFamily thorough(problem, problem.medium(), sigma);
+  for (Vessel& v : found)
+    v = thorough.fit(v, ITERATIONS);
+  const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
+  if (!(vessel.cost < 1e299))
+    return std::nullopt;
+  if (!problem.eye())
+    return fromAllRound(problem, sigma, vessel, *best);
+  const ShapeCandidate c = candidateOf(vessel, problem);
+  if (!beatsSolids(problem, sigma, c, candidates))
+    return std::nullopt;
+  return c;
+}
+
+void fitVesselAllPoints(const ViewProblem& problem,
+                        double sigma,
+                        ShapeCandidate& chosen) {
+  if (!problem.eye())
+    sigma = std::min(sigma, scatterOf(problem.all(), sigma, chosen.model));
+  const Vessel fitted = VesselFamily(problem, problem.all(), sigma)
+                            .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
+  chosen.bic += fitted.cost - chosen.cost;
+  chosen.cost = fitted.cost;
+  chosen.model = fitted.model;
+}
+
+} // namespace pcl_sq::detail

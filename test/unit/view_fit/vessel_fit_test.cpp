@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Open vessels seen once: bowls, mugs, plates.
+#include "pcl_sq/view_fit.h"
+
+#include "fit_scene.h"
+
+#include <gtest/gtest.h>
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+namespace {
+
+/** \brief Adds a vessel that stands on the table. */
+Superquadric& addVessel(ViewScene& scene,
+                        double a,
+                        double a3,
+                        double e1,
+                        double taper,
+                        double rim,
+                        double wall) {
+  scene.addUpright({a, a, a3}, e1, 1.0, a3);
+  Superquadric& s = scene.object.parts.back();
+  s.kx = s.ky = taper;
+  s.rim = rim;
+  s.wall = wall;
+  return s;
+}
+
+ViewScene finerScene() {
+  ViewScene scene(0.6);
+  scene.width = 320;
+  scene.height = 240;
+  scene.camera.fx = scene.camera.fy = 600.0;
+  scene.camera.cx = 159.5;
+  scene.camera.cy = 119.5;
+  return scene;
+}
+
+} // namespace
+
+TEST(VesselFit, BowlPotAndPlateAreOpenAndTrueToSize) {
+  struct Kind {
+    double a, a3, e1, taper, rim, wall;
+  };
+  for (const Kind& k : {Kind{0.07, 0.055, 1.0, 0.0, 0.1, 0.004},
+                        Kind{0.05, 0.05, 0.1, 0.15, 0.9, 0.005},
+                        Kind{0.08, 0.012, 0.2, 0.3, 0.9, 0.004}}) {
+    ViewScene scene = finerScene();
+    const Superquadric truth =
+        addVessel(scene, k.a, k.a3, k.e1, k.taper, k.rim, k.wall);
+    ASSERT_TRUE(truth.isValid());
+    scene.render(0.001);
+    const ObjectFit fit = fitScene(scene);
+    ASSERT_EQ(fit.model.size(), 1u);
+    const Superquadric& s = fit.model.parts[0];
+    EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::VESSEL);
+    EXPECT_TRUE(s.isHollow());
+    EXPECT_GT(overlap(fit.model, scene.object), 0.93);
+    const Eigen::Vector3d up = scene.table.normal;
+    const auto height = [&](const Superquadric& b) {
+      return b.support(up) + b.support(-up);
+    };
+    EXPECT_NEAR(height(s), height(truth), 0.05 * height(truth));
+    EXPECT_NEAR(s.support(Eigen::Vector3d::UnitX()),
+                truth.support(Eigen::Vector3d::UnitX()),
+                0.03 * k.a);
+  }
+}
+
+TEST(VesselFit, ClosedThingsStayClosed) {
+  for (const double e1 : {0.1, 0.6, 1.0}) {
+    ViewScene scene = finerScene();
+    scene.addUpright({0.05, 0.05, 0.04}, e1, 1.0, 0.04);
+    scene.render(0.001);
+    const ObjectFit fit = fitScene(scene);
+    for (const Superquadric& s : fit.model.parts)
+      EXPECT_FALSE(s.isHollow()) << e1;
+  }
+}
+
+TEST(VesselFit, HandleIsAPartBesideAMug) {
+  ViewScene scene = finerScene();
+  const Superquadric mug = addVessel(scene, 0.04, 0.05, 0.1, 0.02, 0.9, 0.004);
+  Superquadric handle = mug;
+  handle.kx = handle.ky = handle.wall = 0.0;
+  handle.rim = 1.0;
+  handle.epsilon1 = 0.3;
+  handle.semi_axes = {0.006, 0.008, 0.03};
+  handle.center = mug.center + 0.05 * Eigen::Vector3d::UnitX();
+  scene.object.parts.push_back(handle);
+  scene.render(0.001);
+  const ObjectFit fit = fitScene(scene);
+  ASSERT_EQ(fit.model.size(), 2u);
+  EXPECT_NE(fit.model.parts[0].isHollow(), fit.model.parts[1].isHollow());
+  EXPECT_GT(overlap(fit.model, scene.object), 0.9);
+}
