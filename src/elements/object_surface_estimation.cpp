@@ -60,13 +60,12 @@ bool SurfaceEstimator::crop() {
 
 void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) {
   const double limit = farthestOnSurface(report_.view, noise);
-  const Eigen::Matrix3Xd points = gather(object_).cast<double>();
-  const std::vector<double> distances =
-      smallestResiduals(model, points, kernels::Residual::FOOT_POINT);
   pcl::Indices near;
-  for (std::size_t i = 0; i < object_.size(); ++i)
-    if (std::abs(distances[i]) <= limit)
-      near.push_back(object_[i]);
+  const std::vector<double> distances =
+      unionDistances(model, gather(object_).cast<double>());
+  for (std::size_t k = 0; k < object_.size(); ++k)
+    if (std::abs(distances[k]) <= limit)
+      near.push_back(object_[k]);
   const std::size_t strays = object_.size() - near.size();
   if (near.empty() || 20 * strays < object_.size()) {
     if (!near.empty())

@@ -15,6 +15,7 @@ namespace pcl_sq {
 namespace {
 
 constexpr int COARSE_STEPS = 8;    ///< inside, each face may hold a minimum of its own
+constexpr int MOST_FEET = 8;       ///< steps along tangent planes at the end
 constexpr int PRECISION_BITS = 26; ///< of the argument; the minimum then has all 52
 
 /** \brief Minimum of f over [0, 1]: the best of a coarse scan, refined by Brent's
@@ -198,14 +199,26 @@ Eigen::Vector3d Superquadric::closestPoint(const Eigen::Vector3d& point) const {
     if ((other - folded).squaredNorm() < (closest - folded).squaredNorm())
       closest = other;
   }
-  // near the surface the radial projection may be nearer than the brackets' resolution
-  Eigen::Vector3d radial = toLocal(radialProjection(point)).cwiseAbs();
-  if ((radial - folded).squaredNorm() < (closest - folded).squaredNorm())
-    closest = radial;
   for (int axis = 0; axis < 2; ++axis)
     closest[axis] = std::copysign(closest[axis], local[axis]);
   closest.z() *= side;
-  return toWorld(closest);
+  // near the surface the radial projection may be nearer than the brackets' resolution,
+  // and on a flat face, whose minimum may be narrower than a bracket, the tangent plane
+  // tells where the foot is
+  Eigen::Vector3d nearest = toWorld(closest);
+  const auto isNearer = [&](const Eigen::Vector3d& other) {
+    if (!((other - point).squaredNorm() < (nearest - point).squaredNorm()))
+      return false;
+    nearest = other;
+    return true;
+  };
+  isNearer(radialProjection(point));
+  for (int i = 0; i < MOST_FEET; ++i) {
+    const Eigen::Vector3d n = normal(nearest);
+    if (!isNearer(radialProjection(point - n.dot(point - nearest) * n)))
+      break;
+  }
+  return nearest;
 }
 
 } // namespace pcl_sq

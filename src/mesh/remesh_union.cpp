@@ -10,13 +10,14 @@ namespace detail {
 
 namespace {
 
-constexpr int START_RESOLUTION = 40; ///< shows how parts meet; splitting does the rest
-constexpr int START_DIVISIONS = 24;  ///< of a single part
-constexpr double WELDED = 0.35;      ///< of a cell: vertices so near become one
 constexpr int TRIES = 4;
-/** \brief Share of the tolerance that the samples on a triangle may use: between them
- * the surface may be a little farther. */
-constexpr double SAMPLED = 0.75;
+/** \brief Shares of the tolerance: of the fine mesh that is coarsened, and of the
+ * samples on a triangle, between which the surface may be a little farther. */
+constexpr double MARCHED = 0.75, SAMPLED = 0.75;
+constexpr double FLAT_CELLS = 16.0; ///< along the longest side where nothing bends
+constexpr double WELDED = 0.18;     ///< of a cell: vertices so near become one
+constexpr double BENT = 0.25;       ///< of a cell may a surface be off
+constexpr double ODD = 0.973;       ///< so that no face touches a corner of the grid
 
 bool isClosed(const TriangleMesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ways, back;
@@ -32,10 +33,10 @@ bool isClosed(const TriangleMesh& mesh) {
 
 /** \brief Where surfaces touch a grid's corners to the last bit the clipped polygons
  * may not meet; another grid does not touch there. */
-PartMesh closedMarch(const MultiSuperquadric& model, int resolution) {
-  PartMesh mesh = marchUnion(model, resolution);
+PartMesh closedMarch(const MultiSuperquadric& model, double tolerance, double longest) {
+  PartMesh mesh = marchUnion(model, tolerance, longest *= ODD);
   for (int i = 1; i < TRIES && !isClosed(mesh.mesh); ++i)
-    mesh = marchUnion(model, resolution + i);
+    mesh = marchUnion(model, tolerance, longest *= ODD);
   return mesh;
 }
 
@@ -55,19 +56,12 @@ TriangleMesh remeshUnion(const MultiSuperquadric& model, double tolerance) {
                         std::clamp(static_cast<int>(chords), 8, 128),
                         remeshUnion(withoutOpenParts(model), tolerance));
   }
-  PartMesh start;
-  if (model.size() == 1) {
-    start.mesh = meshSuperquadric(model.parts[0], START_DIVISIONS);
-    start.part.assign(start.mesh.triangles.size(), 0);
-  } else {
-    start = closedMarch(model, START_RESOLUTION);
-  }
+  const PartMesh start =
+      closedMarch(model, MARCHED * tolerance, longestSide(model) / FLAT_CELLS);
   if (!isClosed(start.mesh))
     return start.mesh;
   SurfaceRemesher remesher(start, model, SAMPLED * tolerance);
-  if (model.size() > 1)
-    remesher.weld(WELDED * longestSide(model) / START_RESOLUTION);
-  remesher.refine();
+  remesher.weld(MARCHED * tolerance);
   remesher.coarsen();
   return remesher.mesh();
 }
@@ -81,12 +75,12 @@ TriangleMesh MultiSuperquadric::meshUnion(int resolution) const {
     return detail::addOpenParts(*this,
                                 std::clamp(resolution / 2, 8, 128),
                                 detail::withoutOpenParts(*this).meshUnion(resolution));
-  const detail::PartMesh start = detail::closedMarch(*this, resolution);
+  const double cell = detail::longestSide(*this) / std::clamp(resolution, 8, 512);
+  const detail::PartMesh start = detail::closedMarch(*this, detail::BENT * cell, cell);
   if (!detail::isClosed(start.mesh))
     return start.mesh;
-  const double cell = detail::longestSide(*this) / resolution;
   detail::SurfaceRemesher remesher(start, *this, cell);
-  remesher.weld(0.5 * detail::WELDED * cell); // the resolution asked for is kept
+  remesher.weld(detail::WELDED * cell); // the resolution asked for is kept
   return remesher.mesh();
 }
 

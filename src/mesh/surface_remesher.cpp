@@ -12,9 +12,6 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int ROUNDS = 4; ///< of collapsing and flipping
-/** \brief Largest angle between a triangle and the surface behind it, 15 degrees: two
- * facets that share a rounding then differ by less than 30. */
-constexpr double LEAST_COSINE = 0.966;
 /** \brief Of triangles that collapsing makes: 20 times as long as high. */
 constexpr double LEAST_SHAPE = 0.05;
 /** \brief Edges up to so many tolerances may go with triangles that face aside. */
@@ -25,7 +22,8 @@ constexpr double MENDED = 20.0;
 SurfaceRemesher::SurfaceRemesher(const PartMesh& mesh,
                                  const MultiSuperquadric& model,
                                  double tolerance)
-    : mesh_(mesh), model_(model), tolerance_(tolerance) {}
+    : mesh_(mesh), model_(model), tolerance_(tolerance),
+      lost_(mesh.mesh.triangles.size()) {}
 
 SurfaceRemesher::Corners SurfaceRemesher::corners(Index triangle,
                                                   Index replaced,
@@ -40,7 +38,13 @@ SurfaceRemesher::Corners SurfaceRemesher::corners(Index triangle,
 
 bool SurfaceRemesher::isSeam(Index a, Index b) const {
   std::array<Index, 2> beside{};
-  return mesh_.beside(a, b, beside) && mesh_.part(beside[0]) != mesh_.part(beside[1]);
+  if (!mesh_.beside(a, b, beside))
+    return false;
+  const std::size_t j = mesh_.part(beside[0]), k = mesh_.part(beside[1]);
+  if (j == k)
+    return false;
+  const Eigen::Vector3d middle = 0.5 * (mesh_.position(a) + mesh_.position(b));
+  return model_.parts[j].normal(middle).dot(model_.parts[k].normal(middle)) < ALONG;
 }
 
 std::vector<SurfaceRemesher::Index> SurfaceRemesher::seamNeighbours(Index v) const {
@@ -56,29 +60,40 @@ std::vector<SurfaceRemesher::Index> SurfaceRemesher::seamNeighbours(Index v) con
   return seams;
 }
 
-bool SurfaceRemesher::facesOut(const Corners& triangle, std::size_t part) const {
-  const Eigen::Vector3d normal = doubleArea(triangle);
-  const Eigen::Vector3d middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-  return normal.dot(model_.parts[part].normal(middle)) > 0.3 * normal.norm();
+bool SurfaceRemesher::keepsLost(const std::vector<Eigen::Vector3d>& lost,
+                                const std::vector<Corners>& triangles) const {
+  return std::all_of(lost.begin(), lost.end(), [&](const Eigen::Vector3d& p) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Corners& t) {
+      return triangleDistance(p, t) <= tolerance_;
+    });
+  });
 }
 
-bool SurfaceRemesher::fits(const Corners& triangle, std::size_t part) const {
-  const Superquadric& surface = model_.parts[part];
-  const Eigen::Vector3d area = doubleArea(triangle);
-  if (!(area.norm() > 0.0))
-    return false;
-  const Eigen::Vector3d normal = area.normalized();
-  const auto near = [&](const Eigen::Vector3d& p) {
-    return std::abs(surface.firstOrderDistance(p)) <= tolerance_;
-  };
-  const auto along = [&](const Eigen::Vector3d& p) {
-    return near(p) && surface.normal(p).dot(normal) >= LEAST_COSINE;
-  };
-  const auto& [a, b, c] = triangle;
-  const Eigen::Vector3d middle = (a + b + c) / 3.0;
-  return along(middle) && near(0.5 * (a + b)) && near(0.5 * (b + c)) &&
-         near(0.5 * (c + a)) && along(0.5 * (middle + a)) &&
-         along(0.5 * (middle + b)) && along(0.5 * (middle + c));
+std::vector<Eigen::Vector3d>
+SurfaceRemesher::lostAt(const std::vector<Index>& triangles) const {
+  std::vector<Eigen::Vector3d> lost;
+  for (const Index t : triangles)
+    lost.insert(lost.end(), lost_[t].begin(), lost_[t].end());
+  return lost;
+}
+
+void SurfaceRemesher::assign(const std::vector<Eigen::Vector3d>& lost,
+                             const std::vector<Index>& triangles) {
+  for (const Index t : triangles)
+    lost_[t].clear();
+  for (const Eigen::Vector3d& p : lost) {
+    Index nearest = triangles.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index t : triangles) {
+      const Index v = mesh_.triangle(t)[0];
+      const double distance = triangleDistance(p, corners(t, v, mesh_.position(v)));
+      if (distance < least) {
+        least = distance;
+        nearest = t;
+      }
+    }
+    lost_[nearest].push_back(p);
+  }
 }
 
 bool SurfaceRemesher::keepsSeam(Index from, Index to) const {
@@ -98,28 +113,47 @@ bool SurfaceRemesher::collapses(Index from, Index to, bool weld) const {
   if (!mesh_.canCollapse(from, to) || !keepsSeam(from, to))
     return false;
   const Eigen::Vector3d &gone = mesh_.position(from), &kept = mesh_.position(to);
-  // triangles that are needles already may stay so
-  double worst = LEAST_SHAPE, missed = std::numeric_limits<double>::infinity();
+  double worst = LEAST_SHAPE; // triangles that are needles already may stay so
   std::vector<Index> moved;
+  std::vector<Corners> then;
   for (const Index t : mesh_.around(from)) {
     worst = std::min(worst, shapeOf(corners(t, from, gone)));
     const EditMesh::Triangle& v = mesh_.triangle(t);
-    if (std::find(v.begin(), v.end(), to) == v.end())
-      moved.push_back(t);
+    if (std::find(v.begin(), v.end(), to) != v.end())
+      continue;
+    moved.push_back(t);
+    then.push_back(corners(t, from, kept));
   }
-  for (const Index t : moved) {
-    const Corners then = corners(t, from, kept);
-    missed = std::min(missed, triangleDistance(gone, then));
-    if (shapeOf(then) < worst)
+  if (std::any_of(then.begin(), then.end(), [&](const Corners& t) {
+        return shapeOf(t) < worst;
+      }))
+    return false;
+  std::vector<Eigen::Vector3d> lost = lostAt(mesh_.around(from));
+  lost.push_back(gone);
+  if (!keepsLost(lost, then))
+    return false;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const std::size_t part = mesh_.part(moved[i]);
+    if (weld ? !facesOut(then[i], part) && facesOut(corners(moved[i], from, gone), part)
+             : !fits(then[i], part))
       return false;
   }
-  return (weld || missed <= tolerance_) &&
-         std::all_of(moved.begin(), moved.end(), [&](Index t) {
-           const Corners then = corners(t, from, kept);
-           const std::size_t part = mesh_.part(t);
-           return weld ? facesOut(then, part) || !facesOut(corners(t, from, gone), part)
-                       : fits(then, part);
-         });
+  return true;
+}
+
+void SurfaceRemesher::collapse(Index from, Index to) {
+  std::vector<Index> moved = mesh_.around(from);
+  std::vector<Eigen::Vector3d> lost = lostAt(moved);
+  lost.push_back(mesh_.position(from));
+  mesh_.collapse(from, to);
+  moved.erase(std::remove_if(moved.begin(),
+                             moved.end(),
+                             [&](Index t) {
+                               const EditMesh::Triangle& v = mesh_.triangle(t);
+                               return v[0] == v[1]; // gone
+                             }),
+              moved.end());
+  assign(lost, moved);
 }
 
 std::size_t SurfaceRemesher::collapseAll(double longest, bool weld) {
@@ -141,7 +175,7 @@ std::size_t SurfaceRemesher::collapseAll(double longest, bool weld) {
       if (!collapses(from, to, weld))
         continue;
     }
-    mesh_.collapse(from, to);
+    collapse(from, to);
     ++count;
     for (const Index v : mesh_.neighbours(to))
       add(v, to);
@@ -161,9 +195,13 @@ void SurfaceRemesher::flipAll() {
     const Corners now[2] = {{p, q, r}, {q, p, s}}, then[2] = {{s, q, r}, {r, p, s}};
     const bool better = std::min(shapeOf(then[0]), shapeOf(then[1])) >
                         std::min(shapeOf(now[0]), shapeOf(now[1]));
+    const std::vector<Index> both = {beside[0], beside[1]};
+    const std::vector<Eigen::Vector3d> lost = lostAt(both);
     if ((better || !fits(now[0], part) || !fits(now[1], part)) && fits(then[0], part) &&
-        fits(then[1], part))
+        fits(then[1], part) && keepsLost(lost, {then[0], then[1]})) {
       mesh_.flip(a, b);
+      assign(lost, both);
+    }
   }
 }
 
@@ -196,9 +234,9 @@ void SurfaceRemesher::mend() {
     if (!wrong)
       continue;
     if (collapses(a, b, true))
-      mesh_.collapse(a, b);
+      collapse(a, b);
     else if (collapses(b, a, true))
-      mesh_.collapse(b, a);
+      collapse(b, a);
   }
 }
 

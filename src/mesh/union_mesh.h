@@ -13,8 +13,9 @@ struct PartMesh {
 };
 
 /** \brief The surface of a union by marching tetrahedra, vertices on it.
- * \param[in] resolution cells along the longest side of the bounding box */
-PartMesh marchUnion(const MultiSuperquadric& model, int resolution);
+ * \param[in] tolerance largest distance of mesh and surface [m]
+ * \param[in] longest side of the cells where the surface is flat [m] */
+PartMesh marchUnion(const MultiSuperquadric& model, double tolerance, double longest);
 
 /** \brief A closed mesh of the union's surface with few triangles.
  * \param[in] tolerance largest distance of mesh and surface [m] */

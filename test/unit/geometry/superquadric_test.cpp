@@ -29,6 +29,19 @@ Superquadric moved(Superquadric s, int parameter, double by) {
 
 } // namespace
 
+TEST(Superquadric, AStepInwardAlongTheNormalIsNoFartherFromTheSurfaceThanItIsLong) {
+  Random random(61);
+  for (int i = 0; i < 4000; ++i) {
+    Superquadric s = random.superquadric();
+    if (i % 2 == 0) // flat faces, whose feet are hard to find from within
+      s.epsilon1 = s.epsilon2 = 0.1;
+    const Eigen::Vector3d p = random.surfacePoint(s);
+    const double step = 0.02 * random.uniform(0.0, 1.0) * s.semi_axes.minCoeff();
+    EXPECT_LT(std::abs(s.euclideanDistance(p - step * s.normal(p))),
+              1.001 * step + 1e-12);
+  }
+}
+
 TEST(Superquadric, InsideOutsideIsOneOnTheSurface) {
   Random random(1);
   for (int i = 0; i < 500; ++i) {

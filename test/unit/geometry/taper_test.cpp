@@ -199,7 +199,7 @@ TEST(Taper, BoxHoldsAllPartsAndTheirSurfaceIsAtNoDistance) {
       for (const Eigen::Vector3d& v : mesh.vertices) {
         tight.extend(v);
         EXPECT_NEAR(body.gauge(v), 1.0, 1e-6);
-        if (++vertices % 500 == 0) {
+        if (++vertices % 100 == 0) {
           EXPECT_LE(bodies.euclideanDistance(v), 1e-6);
         }
       }
@@ -228,7 +228,7 @@ TEST(Taper, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
     Superquadric s = anyTapered(random);
     if (i % 2 == 0)
       s.kx = s.ky = 0.0;
-    Eigen::Matrix3Xd points(3, 200);
+    Eigen::Matrix3Xd points(3, 400);
     for (Eigen::Index k = 0; k < points.cols(); ++k)
       points.col(k) =
           s.center + random.uniform(0.0, 3.0) * (random.pointNear(s) - s.center);
@@ -244,7 +244,7 @@ TEST(Taper, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
       } else
         EXPECT_GE(distances[k], 0.999 * reach) << "case " << i;
   }
-  EXPECT_GT(kept, 500);
+  EXPECT_GT(kept, 1000);
 }
 
 TEST(Taper, ClosestPointIsThatOfDensePlaces) {

@@ -3,17 +3,14 @@
 // normals.
 #include "pcl_sq/graspit_export.h"
 
-#include "mesh_laws.h"
-#include "random_superquadric.h"
+#include "mesh_errors.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 using namespace pcl_sq;
-using pcl_sq::test::doubleArea;
 using pcl_sq::test::isWatertight;
-using pcl_sq::test::Random;
 
 namespace {
 
@@ -65,65 +62,6 @@ TriangleMesh exported(const MultiSuperquadric& model) {
                 massProperties(model).center);
 }
 
-/** \brief Distance of a point on a triangle to the union's surface: out of all parts,
- * or to the nearest. */
-double missOf(const MultiSuperquadric& model, const Eigen::Vector3d& p) {
-  double deepest = 0.0, nearest = 1e9;
-  for (const Superquadric& s : model.parts) {
-    const double d = s.euclideanDistance(p);
-    deepest = std::min(deepest, d);
-    nearest = std::min(nearest, d);
-  }
-  return deepest < 0.0 ? -deepest : nearest;
-}
-
-/** \brief Whether two parts' surfaces are both near to a point. */
-bool atSeam(const MultiSuperquadric& model, const Eigen::Vector3d& p, double reach) {
-  int near = 0;
-  for (const Superquadric& s : model.parts)
-    near += std::abs(s.euclideanDistance(p)) < reach;
-  return near > 1;
-}
-
-struct Errors {
-  double largest = 0.0; ///< distance of mesh and surface [m]
-  double askew = 0.0;   ///< share more than 20 degrees off, away from seams
-};
-
-/** \brief At 1,000 points, uniform in area. */
-Errors errorsOf(const MultiSuperquadric& model, const TriangleMesh& mesh) {
-  std::vector<double> areas;
-  double area = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    areas.push_back(area += doubleArea(mesh, t).norm());
-  Random random(7);
-  Errors errors;
-  int counted = 0, askew = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const auto at =
-        std::lower_bound(areas.begin(), areas.end(), area * random.uniform(0.0, 1.0));
-    const std::size_t t =
-        std::min(std::size_t(at - areas.begin()), mesh.triangles.size() - 1);
-    const auto& c = mesh.triangles[t];
-    double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0);
-    if (u + v > 1.0) {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    const Eigen::Vector3d& a = mesh.vertices[c[0]];
-    const Eigen::Vector3d p =
-        a + u * (mesh.vertices[c[1]] - a) + v * (mesh.vertices[c[2]] - a);
-    const Eigen::Vector3d normal = doubleArea(mesh, t).normalized();
-    errors.largest = std::max(errors.largest, missOf(model, p));
-    if (atSeam(model, p, 1e-3))
-      continue;
-    ++counted;
-    askew += normal.dot(model.parts[model.nearestPart(p)].normal(p)) < 0.94;
-  }
-  errors.askew = double(askew) / std::max(counted, 1);
-  return errors;
-}
-
 } // namespace
 
 TEST(GraspitWorld, ContactsOnTheMeshHaveTheNormalsOfTheSurface) {
@@ -137,9 +75,10 @@ TEST(GraspitWorld, ContactsOnTheMeshHaveTheNormalsOfTheSurface) {
     const TriangleMesh mesh = exported(model);
     EXPECT_TRUE(isWatertight(mesh));
     EXPECT_LT(mesh.triangles.size(), 6000u);
-    const Errors errors = errorsOf(model, mesh);
+    const test::MeshErrors errors = test::errorsOf(model, mesh, 1e-4, 1000);
     EXPECT_LT(errors.askew, 0.01);
-    EXPECT_LT(errors.largest, model.size() == 1 ? 1e-4 : 5e-4); // at seams
+    EXPECT_LT(errors.outward, 1e-4);
+    EXPECT_LT(errors.inward, 1e-4);
     for (const Eigen::Vector3d& v : mesh.vertices)
       EXPECT_NEAR(model.gauge(v), 1.0, 1e-4); // text has nine digits
   }

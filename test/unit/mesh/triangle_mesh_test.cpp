@@ -1,49 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/multi_superquadric.h"
 
-#include "random_superquadric.h"
+#include "mesh_errors.h"
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 using namespace pcl_sq;
+using pcl_sq::test::enclosedVolume;
+using pcl_sq::test::isWatertight;
 using pcl_sq::test::Random;
-
-namespace {
-
-/** \brief Whether each edge is used once in each direction. */
-bool isClosed(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k)
-      ++edges[{t[k], t[(k + 1) % 3]}];
-  for (const auto& [edge, count] : edges) {
-    const auto opposite = edges.find({edge.second, edge.first});
-    if (count != 1 || opposite == edges.end() || opposite->second != 1)
-      return false;
-  }
-  return !mesh.triangles.empty();
-}
-
-/** \brief Enclosed volume by the divergence theorem; positive if triangles face out. */
-double enclosedVolume(const TriangleMesh& mesh) {
-  double six = 0.0;
-  const Eigen::Vector3d o = mesh.vertices.front();
-  for (const auto& t : mesh.triangles)
-    six += (mesh.vertices[t[0]] - o)
-               .dot((mesh.vertices[t[1]] - o).cross(mesh.vertices[t[2]] - o));
-  return six / 6.0;
-}
-
-} // namespace
 
 TEST(TriangleMesh, SuperquadricMeshIsClosedFacesOutAndHasItsVolume) {
   Random random(20);
   for (int i = 0; i < 40; ++i) {
     const Superquadric s = random.superquadric();
     const TriangleMesh mesh = meshSuperquadric(s, 32);
-    EXPECT_TRUE(isClosed(mesh));
+    EXPECT_TRUE(isWatertight(mesh));
     EXPECT_NEAR(enclosedVolume(mesh) / s.volume(), 1.0, 0.03)
         << s.epsilon1 << " " << s.epsilon2;
     for (const Eigen::Vector3d& v : mesh.vertices)
@@ -97,7 +69,7 @@ TEST(MultiSuperquadric, UnionMeshIsClosedLiesOnTheUnionAndHasItsVolume) {
   bottle.parts[1].semi_axes = {0.012, 0.012, 0.04};
   bottle.parts[1].center = {0, 0, 0.13};
   const TriangleMesh mesh = bottle.meshUnion(80);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(isWatertight(mesh));
   for (const Eigen::Vector3d& v : mesh.vertices)
     EXPECT_NEAR(bottle.gauge(v), 1.0, 1e-6);
   Random random(21);
@@ -118,7 +90,7 @@ TEST(MultiSuperquadric, MeshOfPartsHoldsEveryPart) {
   two.parts.resize(2);
   two.parts[1].center.x() = 5.0;
   const TriangleMesh mesh = two.meshParts(8);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(isWatertight(mesh));
   EXPECT_EQ(mesh.vertices.size(),
             2 * meshSuperquadric(two.parts[0], 8).vertices.size());
 }
