@@ -232,6 +232,22 @@ void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
       cells.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
 }
 
+/** \brief Refuses what fills but a piece of the box that was drawn around the object,
+ * where no outline tells them apart. */
+void requireBoxFilled(const FrontResult& front, const ModelResult& result) {
+  constexpr double LEAST = 0.4;
+  const CellMask& pixels = result.report.view.pixels;
+  if (!front.segment.mask.empty() || pixels.cells.empty())
+    return;
+  const double share = double(boundingRect(pixels).area()) /
+                       (double(front.rect.width) * double(front.rect.height));
+  if (share < LEAST)
+    throw Failure("what was found in the box fills " +
+                  std::to_string(std::lround(100.0 * share)) +
+                  " % of it only, so it is not what the box was drawn around; give a "
+                  "mask of the object, or more texture to the pair.");
+}
+
 void writeFront(const FrontResult& front, const Outputs& outputs) {
   const StereoIntrinsics& k = front.stereo.intrinsics;
   if (!outputs.disparity.empty())
@@ -289,6 +305,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
       front_options.left.empty() ? front_options.depth : front_options.left;
   ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
   line.clear();
+  if (best)
+    requireBoxFilled(front, result);
   printNotes(result);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);

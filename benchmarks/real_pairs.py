@@ -47,6 +47,7 @@ def surface(part, steps=60):
     c = power(np.cos(eta), e1)
     p = np.stack([a[0] * c * power(np.cos(omega), e2), a[1] * c * power(np.sin(omega), e2),
                   a[2] * power(np.sin(eta), e1)], -1).reshape(-1, 3)
+    p = p[p[:, 2] <= part.get("rim", 1) * a[2] + 1e-9]  # an open vessel ends at its rim
     kx, ky = part.get("taper", (0, 0))
     p[:, 0] *= kx * p[:, 2] / a[2] + 1
     p[:, 1] *= ky * p[:, 2] / a[2] + 1

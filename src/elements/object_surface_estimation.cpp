@@ -3,6 +3,7 @@
 #include "elements/surface_estimator.h"
 #include "parts/verdict.h"
 #include "pcl_sq/impl/grasp_point_filter.hpp"
+#include "union/surface_statistics.h"
 
 namespace pcl_sq::detail {
 
@@ -60,9 +61,11 @@ bool SurfaceEstimator::crop() {
 void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) {
   const double limit = farthestOnSurface(report_.view, noise);
   pcl::Indices near;
-  for (const pcl::index_t i : object_)
-    if (std::abs(model.euclideanDistance(input_.points.col(i).cast<double>())) <= limit)
-      near.push_back(i);
+  const std::vector<double> distances =
+      unionDistances(model, gather(object_).cast<double>());
+  for (std::size_t k = 0; k < object_.size(); ++k)
+    if (std::abs(distances[k]) <= limit)
+      near.push_back(object_[k]);
   const std::size_t strays = object_.size() - near.size();
   if (near.empty() || 20 * strays < object_.size()) {
     if (!near.empty())

@@ -13,7 +13,7 @@ namespace detail {
 namespace {
 
 constexpr int STEPS = 40;         ///< of a meridian's curve
-constexpr int REFINEMENTS = 26;   ///< golden sections about the nearest chord
+constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
 constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
 
 /** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
@@ -140,6 +140,8 @@ Eigen::Vector2d Meridian::at(double s, double inset) const {
   const double b = s_.semi_axes.y() * (1.0 + s_.ky * height) * scale - inset;
   if (!(a > 0.0 && b > 0.0))
     return {0.0, height * s_.semi_axes.z()};
+  if (s_.epsilon2 == 1.0 && a == b)
+    return {a, height * s_.semi_axes.z()};
   const double u = std::abs(direction_.x()) / a, v = std::abs(direction_.y()) / b;
   const double most = std::max(u, v), least = std::min(u, v);
   const double reach = most * std::pow(1.0 + std::pow(least / most, 2.0 / s_.epsilon2),

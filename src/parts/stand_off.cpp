@@ -13,8 +13,12 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t MIN_CLUSTER = 8;    ///< of a handle's other arm
-constexpr double SAME_SIDE = 0.5;         ///< cosine of 60 degrees around the axis
+constexpr std::size_t MIN_CLUSTER = 8; ///< of a handle's other arm
+constexpr double SAME_SIDE = 0.5;      ///< cosine of 60 degrees around the axis
+/** \brief How far a handle sticks out at least, over the body's radius: fingers go
+ * through, and what hugs the wall is the wall. */
+constexpr double STICKS_OUT = 0.2;
+constexpr double NARROW = 1.0; ///< how wide it is along the wall at most, over the same
 constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
 constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
 constexpr double MAX_COST = 9.2;          ///< of a point, as an outlier
@@ -77,7 +81,11 @@ std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
       direction = away;
     else if (cluster.size() < MIN_CLUSTER || away.dot(direction) < SAME_SIDE)
       continue;
-    side.insert(side.end(), cluster.begin(), cluster.end());
+    for (const int i : cluster) {
+      const Eigen::Vector2d at = body.toLocal(points.col(i)).head<2>();
+      if (at.dot(direction.head<2>()) > SAME_SIDE * at.norm())
+        side.push_back(i);
+    }
   }
   std::sort(side.begin(), side.end());
   return side;
@@ -121,8 +129,17 @@ bool standsOff(const PieceContext& context,
     if (distances[Eigen::Index(k)] > STANDS_OFF * context.noise &&
         !body.contains(o.points.col(piece.points[k])))
       off.push_back(piece.points[k]);
+  double farthest = 0.0;
   off = oneSide(o.points, body, clustersOf(o.points, off, LINKED * o.extent));
-  if (off.size() < MIN_POINTS || 2 * off.size() > piece.points.size())
+  for (std::size_t k = 0, j = 0; k < piece.points.size() && j < off.size(); ++k)
+    if (piece.points[k] == off[j]) {
+      farthest = std::max(farthest, distances[Eigen::Index(k)]);
+      ++j;
+    }
+  if (off.size() < MIN_POINTS || 2 * off.size() > piece.points.size() ||
+      farthest < STICKS_OUT * body.semi_axes.x() ||
+      2.0 * aroundPoints(o.points, off, body).semi_axes.y() >
+          NARROW * body.semi_axes.x())
     return false;
   body_piece = handle = {};
   handle.points = off;
@@ -194,7 +211,7 @@ void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& b
   const bool near = handle.fit.fit.ok() &&
                     (found.center - around.center).norm() <
                         around.semi_axes.norm() + STANDS_OFF * context.noise &&
-                    size.norm() < 4.0 * around.semi_axes.norm() &&
+                    size.norm() < 3.0 * around.semi_axes.norm() &&
                     costOf(found) < 0.5 * MAX_COST;
   if (near)
     return;

@@ -44,16 +44,7 @@ void judgePoints(const MultiSuperquadric& model,
   if (n == 0)
     return;
   Eigen::Index explained = 0;
-  // the nearest place of a wall costs a search; of a solid of revolution, which vessels
-  // are, the distance in the half plane is the same
-  const bool open = std::any_of(
-      model.parts.begin(), model.parts.end(), [](const auto& s) { return s.isCut(); });
-  std::vector<double> distances;
-  if (open)
-    distances = smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT);
-  else
-    for (Eigen::Index i = 0; i < n; ++i)
-      distances.push_back(model.euclideanDistance(o.points.col(i)));
+  std::vector<double> distances = unionDistances(model, o.points);
   for (Eigen::Index i = 0; i < n; ++i) {
     double& distance = distances[std::size_t(i)];
     distance = std::abs(distance);

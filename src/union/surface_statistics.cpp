@@ -3,6 +3,7 @@
 
 #include "geometry/taper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -104,6 +105,18 @@ std::vector<double> smallestResiduals(const MultiSuperquadric& model,
       smallest[i] = std::min(smallest[i], unit * double(values[i]));
   }
   return smallest;
+}
+
+std::vector<double> unionDistances(const MultiSuperquadric& model,
+                                   const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
+  if (std::any_of(model.parts.begin(), model.parts.end(), [](const Superquadric& s) {
+        return s.isCut();
+      }))
+    return smallestResiduals(model, points, kernels::Residual::FOOT_POINT);
+  std::vector<double> distances;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    distances.push_back(model.euclideanDistance(points.col(i)));
+  return distances;
 }
 
 } // namespace pcl_sq::detail

@@ -118,7 +118,6 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                 "smaller box",
                 segment);
   std::vector<std::string> notes;
-  double least = HALF_SEEN;
   cv::Mat mask = cv::Mat::zeros(bgr.size(), CV_8U), depth_odds;
   if (options_.method == SegmentMethod::COLOR)
     colorInBox(bgr, inside, window).copyTo(mask(window));
@@ -133,17 +132,20 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                                   separability(bgr(window), mask(window)));
     const bool piece = cv::boundingRect(mask).area() < HALF_SEEN * inside.area();
     if (right < AGREES || piece) {
+      cv::Mat jointly = cv::Mat::zeros(bgr.size(), CV_8U);
       cutJointly(bgr(window), inner, depth_odds, options_.iterations)
-          .copyTo(mask(window));
-      mask = largestComponents(mask);
-      least = DRAWN;
-      notes.emplace_back(
-          "colours alone do not tell the object from its surroundings, so "
-          "its depth draws the outline as well; a mask of the object is "
-          "surer");
+          .copyTo(jointly(window));
+      jointly = largestComponents(jointly);
+      if (cv::boundingRect(jointly).area() >= DRAWN * inside.area()) {
+        mask = jointly;
+        notes.emplace_back(
+            "colours alone do not tell the object from its surroundings, so "
+            "its depth draws the outline as well; a mask of the object is "
+            "surer");
+      }
     }
   }
-  const bool told = cv::boundingRect(mask).area() >= least * inside.area();
+  const bool told = cv::boundingRect(mask).area() >= HALF_SEEN * inside.area();
   if (!told) {
     notes.assign(1,
                  "colours do not tell the object from its surroundings, so the "

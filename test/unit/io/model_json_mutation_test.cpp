@@ -55,8 +55,9 @@ TEST(ModelJson, ChangedFilesAreRefusedOrGiveFiguresThatAreFinite) {
     EXPECT_TRUE(massProperties(file.model, 8).inertia.allFinite()) << seed;
     const nlohmann::json written = nlohmann::json::parse(toJson(file));
     for (const auto& [path, value] : written.flatten().items())
-      if (path.rfind("/options", 0) != 0) // which are the writer's own, as they were
+      if (path.rfind("/options", 0) != 0) { // which are the writer's own, as they were
         EXPECT_FALSE(value.is_null()) << seed << ' ' << path;
+      }
   }
   EXPECT_GT(accepted, 300);
 }
