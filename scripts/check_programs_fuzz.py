@@ -59,14 +59,15 @@ def mutated(data, rng):
     return bytes(data)
 
 
-def run(command, folder):
+def run(command, folder, seconds):
     """Exit code (negative: a signal), standard output and error, seconds, KiB."""
     with open(os.path.join(folder, "out"), "w+b") as out, \
             open(os.path.join(folder, "err"), "w+b") as err:
-        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+        child = subprocess.Popen(["prlimit", f"--cpu={seconds + 1}", *command],
+                                 stdin=subprocess.DEVNULL, stdout=out, stderr=err,
                                  env={**os.environ, "OMP_NUM_THREADS": "1"})
-        # a program that waits uses no processor time
-        timer = threading.Timer(60, child.kill)
+        # a program that waits uses no processor time; a busy machine may take its time
+        timer = threading.Timer(60 * seconds, child.kill)
         timer.start()
         _, status, usage = os.wait4(child.pid, 0)
         timer.cancel()
@@ -401,7 +402,7 @@ def main():
             os.mkdir(folder)
             command, outputs = maker(folder, rng)
             batch = maker == kinds.fit_batch
-            outcome = run(command, folder)
+            outcome = run(command, folder, SECONDS * (BATCH if batch else 1))
             wrong = (batch_complaint if batch else complaint)(folder, outcome, outputs)
             if wrong:
                 os.makedirs(KEPT, exist_ok=True)
