@@ -35,19 +35,18 @@ def read_csv(path):
         return [row for row in csv.reader(f) if row and not row[0].startswith("#")]
 
 
-def surface(part, steps=60):
-    """Points of a superquadric's surface, in the camera's frame."""
-    eta, omega = np.meshgrid(np.linspace(-np.pi / 2, np.pi / 2, steps),
-                             np.linspace(-np.pi, np.pi, 2 * steps))
+def surface(part, steps=120):
+    """Points of a superquadric's surface up to its rim, in the camera's frame."""
+    heights = np.concatenate([np.linspace(-1, part.get("rim", 1), steps), [-0.9999]])
+    z, omega = np.meshgrid(heights, np.linspace(-np.pi, np.pi, steps))
 
     def power(x, e):
         return np.sign(x) * np.abs(x) ** e
     e1, e2 = part["epsilon"]
     a = part["semi_axes"]
-    c = power(np.cos(eta), e1)
+    c = np.maximum(1 - np.abs(z) ** (2 / e1), 0) ** (e1 / 2)
     p = np.stack([a[0] * c * power(np.cos(omega), e2), a[1] * c * power(np.sin(omega), e2),
-                  a[2] * power(np.sin(eta), e1)], -1).reshape(-1, 3)
-    p = p[p[:, 2] <= part.get("rim", 1) * a[2] + 1e-9]  # an open vessel ends at its rim
+                  a[2] * z], -1).reshape(-1, 3)
     kx, ky = part.get("taper", (0, 0))
     p[:, 0] *= kx * p[:, 2] / a[2] + 1
     p[:, 1] *= ky * p[:, 2] / a[2] + 1

@@ -26,6 +26,9 @@ constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
 /** \brief Score of quick fits from which on a cut is not worth full ones: over what it
  * is to beat, and the factor over the best cut's. */
 constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
+/** \brief Share of a vessel's points off it that are no handle: more are another part,
+ * such as a bottle's neck. */
+constexpr double MOST_UNEXPLAINED = 0.05;
 /** \brief Share of a vessel's points that may be its handle's. */
 constexpr double MOST_OF_HANDLE = 0.15;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
@@ -277,12 +280,16 @@ bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
       noise,
       std::max(scatter(context, pieces[0]), MODEL_ERROR * context.observed.extent));
   Piece body, handle;
-  if (!standsOff(context, pieces[0], body, handle))
-    return true;
-  if (double(handle.points.size()) > MOST_OF_HANDLE * double(pieces[0].points.size())) {
+  const bool has_handle = standsOff(context, pieces[0], body, handle);
+  const double all = double(pieces[0].points.size());
+  if (double(handle.points.size()) > MOST_OF_HANDLE * all ||
+      double(pointsOff(context, pieces[0])) - double(handle.points.size()) >
+          MOST_UNEXPLAINED * all) {
     context.noise = noise;
     return false;
   }
+  if (!has_handle)
+    return true;
   fitHandle(context, handle, pieces[0].fit.fit.model);
   body.fit = pieces[0].fit;
   body.score = pieces[0].score;

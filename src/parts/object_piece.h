@@ -60,6 +60,9 @@ Cut shiftedCut(const PieceContext& context, const Cut& cut, double distance);
 /** \brief Where a piece may be cut: jumps of its width along its axes. */
 std::vector<Cut> proposeCuts(const PieceContext& context, const Piece& piece);
 
+/** \brief How many of a vessel's points lie off it, outside. */
+std::size_t pointsOff(const PieceContext& context, const Piece& piece);
+
 /** \brief Parts what stands off a vessel, a handle, from its body. \return whether
  * enough does, and hangs together */
 [[nodiscard]] bool standsOff(const PieceContext& context,

@@ -72,6 +72,9 @@ std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
                          const Superquadric& body,
                          const std::vector<std::vector<int>>& clusters) {
   std::vector<int> side;
+  // what is nearer to the axis stands on the body: a bottle's neck
+  const double beside = body.semi_axes.head<2>().minCoeff() *
+                        (1.0 - std::max(std::abs(body.kx), std::abs(body.ky)));
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   for (const std::vector<int>& cluster : clusters) {
     Eigen::Vector3d away = body.toLocal(meanOf(points, cluster));
@@ -83,7 +86,7 @@ std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
       continue;
     for (const int i : cluster) {
       const Eigen::Vector2d at = body.toLocal(points.col(i)).head<2>();
-      if (at.dot(direction.head<2>()) > SAME_SIDE * at.norm())
+      if (at.norm() > beside && at.dot(direction.head<2>()) > SAME_SIDE * at.norm())
         side.push_back(i);
     }
   }
@@ -112,7 +115,26 @@ Superquadric aroundPoints(const Eigen::Matrix3Xd& points,
   return s;
 }
 
+/** \brief Columns of a piece's points that lie off its body, outside. */
+std::vector<int> outside(const PieceContext& context,
+                         const Piece& piece,
+                         const Eigen::VectorXd& distances) {
+  std::vector<int> off;
+  for (std::size_t k = 0; k < piece.points.size(); ++k)
+    if (distances[Eigen::Index(k)] > STANDS_OFF * context.noise &&
+        !piece.fit.fit.model.contains(context.observed.points.col(piece.points[k])))
+      off.push_back(piece.points[k]);
+  return off;
+}
+
 } // namespace
+
+std::size_t pointsOff(const PieceContext& context, const Piece& piece) {
+  return outside(context,
+                 piece,
+                 surfaceDistances(piece.fit.fit.model, gather(context, piece.points)))
+      .size();
+}
 
 bool standsOff(const PieceContext& context,
                const Piece& piece,
@@ -122,13 +144,9 @@ bool standsOff(const PieceContext& context,
   if (piece.fit.chosen.shape != ShapeClass::VESSEL)
     return false;
   const Superquadric& body = piece.fit.fit.model;
-  std::vector<int> off;
   const Eigen::VectorXd distances =
       surfaceDistances(body, gather(context, piece.points));
-  for (std::size_t k = 0; k < piece.points.size(); ++k)
-    if (distances[Eigen::Index(k)] > STANDS_OFF * context.noise &&
-        !body.contains(o.points.col(piece.points[k])))
-      off.push_back(piece.points[k]);
+  std::vector<int> off = outside(context, piece, distances);
   double farthest = 0.0;
   off = oneSide(o.points, body, clustersOf(o.points, off, LINKED * o.extent));
   for (std::size_t k = 0, j = 0; k < piece.points.size() && j < off.size(); ++k)

@@ -214,3 +214,26 @@ TEST(OpenBody, RimsAndWallsOutOfRangeAreRefusedWithAReason) {
   EXPECT_NE(refused(0.5, 1.1).find("wall"), std::string::npos);
   EXPECT_NE(refused(-0.95, 0.1).find("wall"), std::string::npos);
 }
+
+TEST(OpenBody, UnionOfAMugAndItsHandleHasAClosedMeshWithAnInside) {
+  Superquadric mug;
+  mug.semi_axes = {0.04, 0.04, 0.05};
+  mug.epsilon1 = 0.1;
+  mug.rim = 0.9;
+  mug.wall = 0.004;
+  Superquadric handle;
+  handle.semi_axes = {0.012, 0.006, 0.03};
+  handle.center.x() = 0.05;
+  MultiSuperquadric model;
+  model.parts = {mug, handle};
+  const TriangleMesh mesh = model.meshUnion(48);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      ++edges[{t[k], t[(k + 1) % 3]}];
+  for (const auto& [edge, count] : edges)
+    ASSERT_EQ(count, edges.count({edge.second, edge.first}) ? 1 : 0);
+  const double volume = momentsOf(mesh, mug.center).volume;
+  EXPECT_NEAR(
+      volume, mug.materialVolume() + handle.volume(), 0.05 * mug.materialVolume());
+}

@@ -53,12 +53,23 @@ TEST(ModelJson, ChangedFilesAreRefusedOrGiveFiguresThatAreFinite) {
       EXPECT_TRUE(s.inertia().allFinite()) << seed;
     }
     EXPECT_TRUE(massProperties(file.model, 8).inertia.allFinite()) << seed;
+<<<<<<< HEAD
     const nlohmann::json written = nlohmann::json::parse(toJson(file));
     const nlohmann::json flat = written.flatten(); // {} becomes null in there
     for (const auto& [path, value] : flat.items())
       EXPECT_FALSE(value.is_null() &&
                    written.at(nlohmann::json::json_pointer(path)).is_null())
           << seed << ' ' << path;
+=======
+    // kept, for items() refers to it
+    const nlohmann::json written = nlohmann::json::parse(toJson(file)).flatten();
+    for (const auto& [path, value] : written.items())
+      // the figures: what else there is stays as it was, and empty lists flatten to
+      // null
+      if (path.rfind("/superquadrics/", 0) == 0 || path == "/distortion") {
+        EXPECT_FALSE(value.is_null()) << seed << ' ' << path;
+      }
+>>>>>>> main
   }
   EXPECT_GT(accepted, 150);
 }

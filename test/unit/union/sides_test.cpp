@@ -32,8 +32,8 @@ TEST(Sides, AreTwiceTheSemiAxesUpToARoundSection) {
 
 TEST(Sides, OfADiamondAreThoseOfTheSquareThatItIs) {
   const Eigen::Vector3d sides = sidesOf(prismOf(0.179, 0.179, 2.0));
-  EXPECT_NEAR(sides.x(), std::sqrt(2.0) * 0.179, 2e-7); // of a kink
-  EXPECT_NEAR(sides.y(), std::sqrt(2.0) * 0.179, 2e-7); // of a kink
+  EXPECT_NEAR(sides.x(), std::sqrt(2.0) * 0.179, 2e-7);
+  EXPECT_NEAR(sides.y(), std::sqrt(2.0) * 0.179, 2e-7);
   EXPECT_NEAR(sides.z(), 0.2, 1e-12);
 }
 
