@@ -51,6 +51,7 @@ void judgePoints(const MultiSuperquadric& model,
     const double own = o.noise.size() > 0 ? double(o.noise[i]) : noise;
     const double aside = o.sideways.size() > 0 ? double(o.sideways[i]) : 0.0;
     explained += distance <= SIGMAS * std::hypot(own, aside) + MODEL_ERROR * o.extent;
+    distance = std::max(0.0, distance - own); // what the noise alone does not explain
   }
   verdict.points = double(explained) / double(n);
   const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);

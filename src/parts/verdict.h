@@ -13,8 +13,8 @@ struct Verdict {
   double pixels = 1.0; ///< of the object's pixels, that the model covers
   double background = 1.0; ///< of the pixels it covers, where none is seen through it
 
-  /** \brief Median distance of the points to the model over twice their root mean
-   * square distance to their middle: half a cube's side, a ball's radius. */
+  /** \brief Median distance of the points to the model, beyond their noise, over twice
+   * their root mean square distance to their middle: about their size. */
   double off = 0.0;
 
   /** \brief The three shares together. */
