@@ -86,11 +86,70 @@ double overlap(const CellRect& a, const CellRect& b) {
   return both / (a.area() + b.area() - both);
 }
 
+/** \brief Where a thing stands: the circle on the table that its width spans behind its
+ * front. No other thing stands in it. */
+class Footprint {
+public:
+  Footprint(const CloudPoints& points,
+            const std::vector<int>& pixels,
+            const TableModel& table)
+      : points_(points), table_(table) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int c : pixels)
+      middle += points.col(c).cast<double>() / double(pixels.size());
+    along_ = middle - table.normal * table.normal.dot(middle);
+    along_.normalize(); // away from the camera
+    across_ = table.normal.cross(along_);
+    std::vector<double> across, along, height;
+    for (const int c : pixels) {
+      const Eigen::Vector3d p = points.col(c).cast<double>();
+      across.push_back(across_.dot(p));
+      along.push_back(along_.dot(p));
+      height.push_back(table.height(p));
+    }
+    const double left = quantile(across, STRAY), right = quantile(across, 1.0 - STRAY);
+    radius_ = 0.5 * (right - left);
+    middle_ = {0.5 * (left + right), quantile(along, STRAY) + radius_};
+    top_ = *std::max_element(height.begin(), height.end());
+  }
+  /** \brief Whether most of some pixels lie over it, and not above the thing. */
+  bool holds(const std::vector<int>& pixels) const {
+    std::size_t inside = 0;
+    for (const int c : pixels) {
+      const Eigen::Vector3d p = points_.col(c).cast<double>();
+      const Eigen::Vector2d at(across_.dot(p), along_.dot(p));
+      inside += (at - middle_).norm() <= (1.0 + MARGIN) * radius_ &&
+                table_.height(p) <= top_ + MARGIN * radius_;
+    }
+    return double(inside) >= MOST * double(pixels.size());
+  }
+
+private:
+  static constexpr double STRAY = 0.01; ///< of pixels
+  static constexpr double MARGIN = 0.1; ///< over the radius: few things are round
+  static constexpr double MOST = 0.8;   ///< of a piece's pixels
+
+  static double quantile(std::vector<double>& values, double share) {
+    const auto place =
+        values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  }
+
+  const CloudPoints& points_;
+  const TableModel& table_;
+  Eigen::Vector3d along_, across_;
+  Eigen::Vector2d middle_; ///< across, along
+  double radius_ = 0.0, top_ = 0.0;
+};
+
 /** \brief Adds to a thing the pieces of it behind its own rim, such as a cup's inside:
- * above no more than itself in the image, and in space they hang together with it. */
+ * above no more than itself in the image; in space they hang together with it, or stand
+ * where it stands. */
 void addPieces(const std::vector<Region>& all,
                const CloudPoints& points,
                int width,
+               const TableModel& table,
                Region& thing) {
   const CellRect box = boxOf(thing.pixels, width);
   const int beside = std::max(2, box.width / 10); // rims are wider than what they crown
@@ -122,8 +181,10 @@ void addPieces(const std::vector<Region>& all,
   for (const int c : thing.pixels)
     ++own[std::size_t(cluster_of[std::size_t(c)])];
   const auto main = std::max_element(own.begin(), own.end()) - own.begin();
+  const Footprint footprint(points, thing.pixels, table);
   for (const Region* r : pieces)
-    if (cluster_of[std::size_t(r->pixels[r->pixels.size() / 2])] == main)
+    if (cluster_of[std::size_t(r->pixels[r->pixels.size() / 2])] == main ||
+        footprint.holds(r->pixels))
       thing.pixels.insert(thing.pixels.end(), r->pixels.begin(), r->pixels.end());
 }
 
@@ -142,7 +203,9 @@ DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
 
 } // namespace
 
-Region largestThing(const CloudPoints& points, const CellMask& above) {
+Region largestThing(const CloudPoints& points,
+                    const CellMask& above,
+                    const TableModel& table) {
   Regions regions(points, above);
   std::vector<Region> all;
   Region best;
@@ -155,7 +218,7 @@ Region largestThing(const CloudPoints& points, const CellMask& above) {
       all.push_back(std::move(r));
   }
   if (!best.pixels.empty())
-    addPieces(all, points, above.width, best);
+    addPieces(all, points, above.width, table, best);
   return best;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pcl_sq/cell_mask.h"
+#include "pcl_sq/object_view.h"
 #include "pcl_sq/superquadric.h"
 
 #include <vector>
@@ -21,7 +22,8 @@ struct Region {
 /** \brief The largest region that the image border does not cut, with its pieces; if
  * there is none, the largest that but one of its sides cuts.
  * \param[in] points in the camera's frame \param[in] above pixels above the table */
-[[nodiscard]] Region largestThing(const CloudPoints& points, const CellMask& above);
+[[nodiscard]] Region
+largestThing(const CloudPoints& points, const CellMask& above, const TableModel& table);
 
 /** \brief The pixels of the thing whose box is the given one. It may be in pieces: a
  * bowl's wall and its inside, a handle beyond its own shadow. A piece belongs to it

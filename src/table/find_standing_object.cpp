@@ -95,7 +95,7 @@ Standing findInImage(const CloudPoints& points,
     if (region)
       found.thing = thingOfBox(points, above, box, size);
     if (!region || (loose && found.thing.empty())) {
-      Region best = largestThing(points, above);
+      Region best = largestThing(points, above, table);
       found.thing = std::move(best.pixels);
       found.cut = best.cut();
     }
