@@ -119,7 +119,8 @@ bool observeImage(Observation& o, std::string& why) {
   findGap(o, box);
   out.outline_sigma = sharp ? o.view.mask_sigma : 1.5;
   out.outline_dilation = sharp ? o.view.mask_dilation : 1.5;
-  out.outline_offset = sharp ? 0.0 : FATTENING;
+  const double missing = has_mask ? 0.0 : missingEdge(o);
+  out.outline_offset = missing > 0.0 ? -0.5 * missing : sharp ? 0.0 : FATTENING;
   patch.markOthers(o);
   // just above the table the cluster ends before the object does
   const double floor = has_mask || !out.table ? -1e300 : lowestOutline(out);

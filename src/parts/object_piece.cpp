@@ -277,6 +277,7 @@ void fitPiece(const PieceContext& context,
   const bool general = effort == Effort::QUICK || effort == Effort::START;
   options.choose_shape = options.choose_shape && !general;
   options.vessel = options.vessel && piece.stands; // a handle is none
+  options.taper = options.taper && piece.stands;   // nor is it a cone
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;

@@ -19,10 +19,12 @@ constexpr double SAME_SIDE = 0.5;      ///< cosine of 60 degrees around the axis
  * through, and what hugs the wall is the wall. */
 constexpr double STICKS_OUT = 0.2;
 constexpr double NARROW = 1.0; ///< how wide it is along the wall at most, over the same
-constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
-constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
-constexpr double MAX_COST = 9.2;          ///< of a point, as an outlier
-constexpr int PLANES = 48;                ///< of the body's outline
+constexpr double STANDS_OFF = 4.0; ///< sigmas from the body
+constexpr double LINKED = 0.12;    ///< of neighbours, over the object's size
+constexpr double MAX_COST = 9.2;   ///< of a point, as an outlier
+constexpr double LARGER =
+    1.25;                  ///< a handle than the box of its points: one side is hid
+constexpr int PLANES = 48; ///< of the body's outline
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
@@ -229,7 +231,7 @@ void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& b
   const bool near = handle.fit.fit.ok() &&
                     (found.center - around.center).norm() <
                         around.semi_axes.norm() + STANDS_OFF * context.noise &&
-                    size.norm() < 3.0 * around.semi_axes.norm() &&
+                    size.norm() < 2.0 * LARGER * around.semi_axes.norm() &&
                     costOf(found) < 0.5 * MAX_COST;
   if (near)
     return;

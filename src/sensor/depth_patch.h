@@ -68,4 +68,10 @@ private:
  * object. */
 [[nodiscard]] bool errorsAreIndependent(const Observation& o, const TableModel& plane);
 
+/** \brief How many pixels without depth lie between the object and what is behind it,
+ * the median over its outline. Cameras that measure each pixel by itself drop those
+ * that see both: half of them are the object's. Matching over windows drops none, it
+ * fattens the nearer one; shadows of occlusion lie on one side alone. */
+[[nodiscard]] double missingEdge(const Observation& o);
+
 } // namespace pcl_sq::detail

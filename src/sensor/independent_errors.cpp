@@ -20,6 +20,10 @@ constexpr std::size_t WANTED = 20000; ///< more tell nothing new
  * the far ones' variance. The middle, as a ratio of deviations. */
 const double ALIKE = 0.5 * (1.0 + std::sqrt(1.0 / 3.0));
 
+constexpr int WIDEST = 10;               ///< edge that is looked for [px]
+constexpr std::size_t FEWEST_EDGES = 50; ///< places on an outline that tell
+constexpr double JUMP = 0.02; ///< from an object to what is behind it, over the depth
+
 double medianOf(std::vector<double>& values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -53,6 +57,30 @@ bool errorsAreIndependent(const Observation& o, const TableModel& plane) {
       off[1].push_back(std::abs(inverse(x - FAR, y) + inverse(x + FAR, y) - middle));
     }
   return off[0].size() >= FEWEST && medianOf(off[0]) > ALIKE * medianOf(off[1]);
+}
+
+double missingEdge(const Observation& o) {
+  const CellMask& object = o.out.pixels;
+  const CellRect box = boundingRect(object);
+  std::vector<double> widths;
+  for (int y = box.y; y < box.y + box.height; ++y)
+    for (int x = box.x; x < box.x + box.width; ++x) {
+      if (!object(x, y) || !o.finite(y * o.width + x))
+        continue;
+      const double own = double(o.points(2, y * o.width + x));
+      for (const auto& [dx, dy] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        for (int k = 1; k <= WIDEST; ++k) {
+          const int u = x + k * dx, v = y + k * dy;
+          if (u < 0 || v < 0 || u >= o.width || v >= o.height || object(u, v))
+            break;
+          if (!o.finite(v * o.width + u))
+            continue;
+          if (double(o.points(2, v * o.width + u)) - own > JUMP * own)
+            widths.push_back(double(k - 1));
+          break;
+        }
+    }
+  return widths.size() >= FEWEST_EDGES ? medianOf(widths) : 0.0;
 }
 
 } // namespace pcl_sq::detail
