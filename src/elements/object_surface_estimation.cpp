@@ -61,8 +61,8 @@ bool SurfaceEstimator::crop() {
 void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) {
   const double limit = farthestOnSurface(report_.view, noise);
   pcl::Indices near;
-  const std::vector<double> distances =
-      unionDistances(model, gather(object_).cast<double>());
+  const std::vector<double> distances = smallestResiduals(
+      model, gather(object_).cast<double>(), kernels::Residual::FOOT_POINT);
   for (std::size_t k = 0; k < object_.size(); ++k)
     if (std::abs(distances[k]) <= limit)
       near.push_back(object_[k]);

@@ -44,7 +44,8 @@ void judgePoints(const MultiSuperquadric& model,
   if (n == 0)
     return;
   Eigen::Index explained = 0;
-  std::vector<double> distances = unionDistances(model, o.points);
+  std::vector<double> distances =
+      smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT);
   for (Eigen::Index i = 0; i < n; ++i) {
     double& distance = distances[std::size_t(i)];
     distance = std::abs(distance);

@@ -107,16 +107,4 @@ std::vector<double> smallestResiduals(const MultiSuperquadric& model,
   return smallest;
 }
 
-std::vector<double> unionDistances(const MultiSuperquadric& model,
-                                   const Eigen::Ref<const Eigen::Matrix3Xd>& points) {
-  if (std::any_of(model.parts.begin(), model.parts.end(), [](const Superquadric& s) {
-        return s.isCut();
-      }))
-    return smallestResiduals(model, points, kernels::Residual::FOOT_POINT);
-  std::vector<double> distances;
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    distances.push_back(model.euclideanDistance(points.col(i)));
-  return distances;
-}
-
 } // namespace pcl_sq::detail

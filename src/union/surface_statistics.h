@@ -22,10 +22,4 @@ std::vector<double> smallestResiduals(const MultiSuperquadric& model,
                                       const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                       kernels::Residual residual);
 
-/** \brief MultiSuperquadric::euclideanDistance() of many points. Where a part has a
- * rim, the foot-point distance, which is the same for solids of revolution: the nearest
- * place of a wall costs a search. */
-std::vector<double> unionDistances(const MultiSuperquadric& model,
-                                   const Eigen::Ref<const Eigen::Matrix3Xd>& points);
-
 } // namespace pcl_sq::detail

@@ -16,7 +16,8 @@ ViewScene canOnTable() {
   return scene;
 }
 
-/** \brief Takes the depth of the pixels within \a reach of the outline on either side. */
+/** \brief Takes the depth of the pixels within \a reach of the outline on either side.
+ */
 void dropEdge(ViewScene& scene, int reach) {
   const CellMask& mask = scene.mask;
   const Eigen::Matrix3Xf all = scene.points;
