@@ -78,12 +78,12 @@ std::string Verdict::objection() const {
            "thing, or noise; give the object's region or mask, or more texture to a "
            "stereo pair";
   if (pixels < LEAST_PIXELS)
-    return "the model covers but " + std::to_string(int(std::lround(100.0 * pixels))) +
+    return "the model covers but " + std::to_string(int(100.0 * pixels)) +
            " % of the object's pixels, so it is not the object; give a tighter region "
            "or a mask of the object";
   if (confidence() < EVEN)
     return "the model and what was seen agree by " +
-           std::to_string(int(std::lround(100.0 * confidence()))) +
+           std::to_string(int(100.0 * confidence())) +
            " % only, so it is as likely wrong as right; give a tighter region or a "
            "mask of the object";
   return {};
