@@ -107,7 +107,8 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   expectRefusal({l, r, "--calib", c, "--click", "5000,10"}, "within it");
   expectRefusal({l, r, "--calib", c, "--color", "300,0,0"}, "from 0 to 255", 2);
   expectRefusal({l, r, "--calib", c, "--color", "255,0,255"}, "give another one");
-  expectRefusal({l, file("mask.png"), "--calib", c}, "match");
+  expectRefusal({l, file("mask.png"), "--calib", c},
+                "nothing on the object was matched");
   const Folder folder;
   const std::string grey =
       folder.write("grey.pgm", "P5\n640 480\n255\n" + std::string(640 * 480, '\x80'));

@@ -58,6 +58,18 @@ double exactResidual(const Superquadric& s, Residual kind, const Eigen::Vector3d
   }
 }
 
+/** \brief Planes from their seven arrays, in the order of Planes. */
+Planes planesOf(const std::vector<std::vector<float>>& a, std::size_t count) {
+  return {a[0].data(),
+          a[1].data(),
+          a[2].data(),
+          a[3].data(),
+          a[4].data(),
+          a[5].data(),
+          a[6].data(),
+          count};
+}
+
 class EveryIsa : public testing::TestWithParam<Isa> {
 protected:
   const Kernels* kernels_ = kernelsFor(GetParam());
@@ -187,14 +199,7 @@ TEST_P(EveryIsa, PlaneSumsAgreeWithThePortableOnes) {
       a[5][i] = i % 3 == 0 ? 0.0F : -1e30F;
       a[6][i] = float(random.uniform(0.0, 2.0));
     }
-    const Planes planes = {a[0].data(),
-                           a[1].data(),
-                           a[2].data(),
-                           a[3].data(),
-                           a[4].data(),
-                           a[5].data(),
-                           a[6].data(),
-                           count};
+    const Planes planes = planesOf(a, count);
     PlaneSums expected, sums;
     kernelsFor(Isa::PORTABLE)->planes(planes, detail::toShape(s), expected);
     kernels_->planes(planes, detail::toShape(s), sums);
@@ -289,14 +294,7 @@ TEST_P(EveryIsa, PlanesOfTaperedBodiesAreThoseInDoublePrecision) {
       j[TAPERED_PARAMETERS] = beyond;
       expected += std::pow(double(a[4][i]), 2) * j * j.transpose();
     }
-    const Planes planes = {a[0].data(),
-                           a[1].data(),
-                           a[2].data(),
-                           a[3].data(),
-                           a[4].data(),
-                           a[5].data(),
-                           a[6].data(),
-                           count};
+    const Planes planes = planesOf(a, count);
     PlaneSumsOf<TAPERED_ROWS> sums;
     kernels_->taperedPlanes(planes, detail::toShape(s), sums);
     SCOPED_TRACE(body);
