@@ -23,8 +23,9 @@ constexpr double STANDS_OFF = 4.0; ///< sigmas from the body
 constexpr double LINKED = 0.12;    ///< of neighbours, over the object's size
 constexpr double MAX_COST = 9.2;   ///< of a point, as an outlier
 constexpr double LARGER =
-    1.25;                  ///< a handle than the box of its points: one side is hid
-constexpr int PLANES = 48; ///< of the body's outline
+    1.25;                      ///< a handle than the box of its points: one side is hid
+constexpr double STRAY = 0.05; ///< of a handle's points, at either end
+constexpr int PLANES = 48;     ///< of the body's outline
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
@@ -106,11 +107,15 @@ Superquadric aroundPoints(const Eigen::Matrix3Xd& points,
   Eigen::Vector3d away = meanOf(points, columns) - body.center;
   away = (away - up * up.dot(away)).normalized();
   s.rotation << away, up.cross(away), up;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (const int i : columns) {
-    const Eigen::Vector3d p = s.rotation.transpose() * points.col(i);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  Eigen::Vector3d low, high;
+  const auto cut = std::ptrdiff_t(STRAY * double(columns.size()));
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> along;
+    for (const int i : columns)
+      along.push_back(s.rotation.col(k).dot(points.col(i)));
+    std::sort(along.begin(), along.end());
+    low[k] = *(along.begin() + cut);
+    high[k] = *(along.end() - 1 - cut);
   }
   s.center = s.rotation * (0.5 * (low + high));
   s.semi_axes = 0.5 * (high - low).cwiseMax(0.05 * (high - low).maxCoeff());

@@ -53,8 +53,11 @@ TEST(RealClouds, MugOfTheStereoSceneBecomesBodyAndHandle) {
   ASSERT_TRUE(tabletop.segment(*object)) << tabletop.getFailure();
   const MultiSuperquadric model = estimate(cloud, object);
   ASSERT_GE(model.size(), 2u);
-  // the handle is small, whichever axis of it is which
-  const auto size = [](const Superquadric& part) { return part.semi_axes.prod(); };
+  // the handle is small, seen from the camera: across by along, the depth being a guess
+  const auto size = [](const Superquadric& part) {
+    const Eigen::Vector3d sides = part.halfSizes();
+    return sides.x() * sides.y();
+  };
   double largest = 0.0, smallest = 1.0;
   for (const Superquadric& part : model.parts) {
     largest = std::max(largest, size(part));
