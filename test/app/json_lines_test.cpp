@@ -134,7 +134,7 @@ TEST(JsonLines, OneCloudThatNeverEndsHoldsBackAFewOthersOnly) {
   arguments.insert(arguments.begin(), never);
   arguments.insert(arguments.end(), {"--threads", "2", "-q", "--jsonl", "-o", out});
   Running program(arguments);
-  EXPECT_TRUE(waitForLines(out, 17));
+  EXPECT_TRUE(waitForLines(out, 40)) << "the others wait for the one that never ends";
   EXPECT_EQ(program.end(SIGTERM), SIGTERM);
   EXPECT_EQ(linesOf(out).size(), 40u);
 }
