@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/whole_cloud.h"
+#include "parts/exposed_area.h"
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
@@ -14,12 +14,6 @@ namespace {
 
 constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
 constexpr int OCTANT = 3 * CELLS * CELLS;
-
-/** \brief A surface in small pieces. */
-struct SurfaceCells {
-  Eigen::Matrix3Xd middles{3, 8 * OCTANT};
-  Eigen::ArrayXd areas{8 * OCTANT};
-};
 
 /** \brief Of a body with a rim: the triangles of its mesh. */
 SurfaceCells meshCells(const Superquadric& part) {
@@ -38,10 +32,14 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
+} // namespace
+
 SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
+  cells.middles.resize(3, 8 * OCTANT);
+  cells.areas.resize(8 * OCTANT);
   const double volume = part.semi_axes.prod() / (CELLS * CELLS);
   for (int c = 0; c < OCTANT; ++c) {
     const int face = c / (CELLS * CELLS);
@@ -71,8 +69,6 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   }
   return cells;
 }
-
-} // namespace
 
 void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,

@@ -2,6 +2,7 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "observe/sheets.h"
 #include "parts/outline_gaps.h"
 #include "parts/split_view.h"
 #include "parts/whole_cloud.h"
@@ -32,6 +33,7 @@ constexpr double MODEL_ERROR = 0.005;
 /** \brief What a depth image's neighbours share and their scatter does not show, over
  * the depth: locking to whole pixels, smoothing over the matched window. */
 constexpr double SENSOR_ERROR = 7e-4;
+constexpr Eigen::Index NOISE_SAMPLES = 200;
 /** \brief By how much measurements lie beside their pixels [px]: what a matching window
  * takes from its side nearer to the camera, a depth camera's lateral noise. */
 constexpr double SIDEWAYS = 0.5;
@@ -172,7 +174,9 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : curvedNoise(observed.points);
+                : noiseOf(sheetsOf(observed.points,
+                                   std::max<Eigen::Index>(
+                                       1, observed.points.cols() / NOISE_SAMPLES)));
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0 ? options.parts : options.max_parts;

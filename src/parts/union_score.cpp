@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/union_score.h"
+
+#include "parts/exposed_area.h"
+#include "view_fit/plane_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t MIN_POINTS = 24;
+/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
+constexpr double OUTLIER = 0.01;
+/** \brief A body may leave the box of the points by so much of the box's half diagonal
+ * before its fit is repeated within the box, and where it then still does, it is no
+ * part: points show all sides, and what is beyond them is empty. */
+constexpr double SLACK = 0.02, BEYOND = 0.05;
+constexpr double BOX_SIGMA = 0.005; ///< of the box's sides, over the same
+
+} // namespace
+
+struct BodyTrace {
+  Superquadric model;
+  Eigen::AlignedBox3d box;
+  Eigen::VectorXd distances; ///< signed, of all points [m]
+  SurfaceCells cells;
+  Eigen::ArrayXd half; ///< sizes of the cells [m]
+  double sticks_out = 0.0; ///< of the points' box [m]
+};
+
+namespace {
+
+std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
+                                         const Superquadric& model) {
+  auto trace = std::make_shared<BodyTrace>();
+  const Eigen::Matrix3Xd& points = context.observed.points;
+  trace->model = model;
+  trace->box = model.boundingBox();
+  trace->distances = surfaceDistances(model, points);
+  trace->cells = surfaceCells(model);
+  trace->half = 0.5 * trace->cells.areas.sqrt();
+  trace->sticks_out =
+      std::max((trace->box.max() - points.rowwise().maxCoeff()).maxCoeff(),
+               (points.rowwise().minCoeff() - trace->box.min()).maxCoeff());
+  return trace;
+}
+
+/** \brief The sides of the points' box as half-spaces. */
+std::vector<TangentPlane> sidesOfBox(const ObservedObject& o) {
+  std::vector<TangentPlane> sides;
+  for (int k = 0; k < 3; ++k)
+    for (const double sign : {1.0, -1.0}) {
+      TangentPlane side;
+      side.normal = sign * Eigen::Vector3d::Unit(k);
+      side.offset = (sign * o.points.row(k)).maxCoeff();
+      side.sigma = BOX_SIGMA * o.extent;
+      sides.push_back(side);
+    }
+  return sides;
+}
+
+} // namespace
+
+void traceAgain(const PieceContext& context, Part& part) {
+  part.trace.reset();
+  if (part.piece.fit.fit.ok())
+    part.trace = traceOf(context, part.piece.fit.fit.model);
+}
+
+double distanceOf(const Part& part, int column) {
+  return part.trace->distances[column];
+}
+
+void fitPart(const PieceContext& context, Part& part, Effort effort) {
+  fitPiece(context, part.piece, effort);
+  traceAgain(context, part);
+  if (part.trace && part.trace->sticks_out > SLACK * context.observed.extent) {
+    PieceContext within = context;
+    const std::vector<TangentPlane> sides = sidesOfBox(context.observed);
+    within.limits.insert(within.limits.end(), sides.begin(), sides.end());
+    fitPiece(within, part.piece, effort);
+    traceAgain(context, part);
+  }
+}
+
+double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
+  const ObservedObject& o = context.observed;
+  Eigen::ArrayXd distances = Eigen::ArrayXd::Constant(o.points.cols(), 1e300);
+  double parameters = 0.0, demand = 0.0, area = 0.0;
+  for (const Part* part : parts) {
+    if (!part->trace || part->trace->sticks_out > BEYOND * o.extent)
+      return 1e300;
+    // the smallest signed distance is that to the union
+    distances = distances.min(part->trace->distances.array());
+    parameters += part->piece.fit.chosen.parameters;
+    if (part->trace->model.isTapered())
+      demand += TAPER;
+  }
+  for (const Part* part : parts) {
+    const BodyTrace& own = *part->trace;
+    Eigen::VectorXd beyond = own.half;
+    for (const Part* other : parts)
+      if (other != part && own.box.intersects(other->trace->box))
+        keepNearer(other->trace->model, own.cells.middles, own.half, beyond);
+    // a cell that another part's surface crosses counts in part
+    area += ((0.5 + 0.5 * beyond.array() / own.half).max(0.0) * own.cells.areas).sum();
+  }
+  const Eigen::ArrayXd z = distances / context.noise;
+  const double cost =
+      -2.0 *
+      (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
+  return (cost / double(distances.size()) +
+          2.0 * std::log(area / (o.extent * o.extent))) *
+             o.effective_points +
+         parameters * std::log(1.0 + o.effective_points) + demand;
+}
+
+bool assignPoints(const PieceContext& context, std::vector<Part>& parts) {
+  const Eigen::Index n = context.observed.points.cols();
+  Eigen::VectorXd nearest = Eigen::VectorXd::Constant(n, 1e300);
+  std::vector<std::size_t> owner(static_cast<std::size_t>(n), 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    Eigen::VectorXd distances = parts[k].trace->distances.cwiseAbs();
+    for (const int i : parts[k].piece.points)
+      distances[i] -= context.noise;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (distances[i] < nearest[i]) {
+        nearest[i] = distances[i];
+        owner[static_cast<std::size_t>(i)] = k;
+      }
+  }
+  std::vector<std::vector<int>> points(parts.size());
+  bool changed = false;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const int i : parts[k].piece.points) {
+      points[owner[static_cast<std::size_t>(i)]].push_back(i);
+      changed = changed || owner[static_cast<std::size_t>(i)] != k;
+    }
+  for (const auto& list : points)
+    if (list.size() < MIN_POINTS)
+      return false;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    parts[k].piece.points.swap(points[k]);
+  return changed;
+}
+
+} // namespace pcl_sq::detail
