@@ -33,6 +33,8 @@ constexpr double MODEL_ERROR = 0.005;
 /** \brief What a depth image's neighbours share and their scatter does not show, over
  * the depth: locking to whole pixels, smoothing over the matched window. */
 constexpr double SENSOR_ERROR = 7e-4;
+/** \brief Parts that are looked for where the options leave it open. */
+constexpr int MOST_IN_VIEW = 6, MOST_ALL_ROUND = 16;
 constexpr Eigen::Index NOISE_SAMPLES = 200;
 /** \brief By how much measurements lie beside their pixels [px]: what a matching window
  * takes from its side nearer to the camera, a depth camera's lateral noise. */
@@ -156,7 +158,7 @@ double medianNoise(const ObservedObject& observed) {
 
 bool ObjectFitOptions::isValid(std::string* why) const {
   OptionCheck check(why);
-  check.inRange("max_parts", max_parts, 1, 64);
+  check.inRange("max_parts", max_parts, 0, 64);
   check.inRange("parts", parts, 0, 64);
   check.inRange("silhouette_lines", silhouette_lines, 8, 360);
   check.require(fit.precision.empty(),
@@ -179,7 +181,10 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                                        1, observed.points.cols() / NOISE_SAMPLES)));
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
-  const int wanted = options.parts > 0 ? options.parts : options.max_parts;
+  const int wanted = options.parts > 0       ? options.parts
+                     : options.max_parts > 0 ? options.max_parts
+                     : observed.hasCamera()  ? MOST_IN_VIEW
+                                             : MOST_ALL_ROUND;
   const bool split = wanted > 1 && (noise > 0.0 || options.parts > 0);
   std::vector<Piece> pieces(1, wholePiece(context));
   // where parts are compared, the first fit but tells the noise; bare points of one

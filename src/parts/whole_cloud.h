@@ -19,4 +19,8 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    bool exactly,
                                    double min_gain);
 
+/** \brief Points of a cloud without those that have others beyond them as seen from the
+ * middle: the inner sides of walls. */
+std::vector<int> outerPoints(const Eigen::Matrix3Xd& points, double noise);
+
 } // namespace pcl_sq::detail
