@@ -18,7 +18,6 @@ constexpr double PART_EPSILON = 1.0;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
 
-
 /** \brief Whether a piece reaches the table: its lowest points are on it, or nobody
  * saw that it ends before. \param[in] whole whether it is all of the object */
 bool reachesTable(const PieceContext& context,
