@@ -102,7 +102,8 @@ private:
 
   void readKind(const Words& words) {
     header_.kind = words.empty() ? "" : lowered(words[0]);
-    if (header_.kind != "ascii" && header_.kind != "binary" && header_.kind != "binary_compressed")
+    if (header_.kind != "ascii" && header_.kind != "binary" &&
+        header_.kind != "binary_compressed")
       failInLine(lines_.number(),
                  "DATA " + (words.empty() ? "" : quoted(words[0])) +
                      " is none of ascii, binary and binary_compressed");
@@ -128,14 +129,13 @@ private:
       const std::string_view type = types_.empty() ? "F" : types_[k];
       const auto scalar = scalarOf(type, size);
       if (!scalar)
-        throw Failure("its field " + quoted(names_[k]) + " has TYPE " +
-                      quoted(type) + " SIZE " + std::to_string(size) +
-                      ", which is no number");
+        throw Failure("its field " + quoted(names_[k]) + " has TYPE " + quoted(type) +
+                      " SIZE " + std::to_string(size) + ", which is no number");
       field.type = *scalar;
       field.count = counts_.empty() ? 1 : counts_[k];
       if (field.count > body + 1)
-        throw Failure("its field " + quoted(names_[k]) +
-                      " has an impossible COUNT " + std::to_string(field.count));
+        throw Failure("its field " + quoted(names_[k]) + " has an impossible COUNT " +
+                      std::to_string(field.count));
       field.offset = header_.point_bytes;
       field.position = header_.point_values;
       header_.point_bytes += field.count * size;
@@ -158,7 +158,8 @@ private:
     header_.width = static_cast<std::uint32_t>(width_.value_or(header_.total));
     header_.height = static_cast<std::uint32_t>(width_ ? height_.value_or(1) : 1);
     // a digit and a separator for each number of a text, without the last separator
-    const std::uint64_t least = header_.kind == "ascii" ? 2 * header_.point_values : header_.point_bytes;
+    const std::uint64_t least =
+        header_.kind == "ascii" ? 2 * header_.point_values : header_.point_bytes;
     const std::uint64_t available = header_.kind == "ascii" ? body + 1 : body;
     if (header_.kind != "binary_compressed" && header_.total > available / least)
       throw Failure("its header promises " + std::to_string(header_.total) +
