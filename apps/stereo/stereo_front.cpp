@@ -115,13 +115,18 @@ findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) 
 /** \brief Refuses an object of which nothing was matched but its surroundings. */
 void requireTexture(const FrontOptions& o, const FrontResult& r) {
   constexpr double LEAST = 0.05; // a label on a plain body is more
+  constexpr double MAJORITY =
+      0.5; // where most of the matches are noise, so is the model
   // noise of 121 pixels has a correlation of .5 once in ten million times
   const int block = std::max(11, o.stereo.blockSizeFor(r.stereo.disparity.cols));
-  if (!r.stereo.disparity.empty() && r.segment.outlined &&
-      texturedShare(r.stereo, r.segment.mask, block) < LEAST)
-    throw Failure("nothing on the object was matched: it has no texture, so what the "
-                  "matcher gives is noise; put something with texture on it, project a "
-                  "pattern, or use a depth camera (--depth).");
+  if (r.stereo.disparity.empty() || !r.segment.outlined)
+    return;
+  const TexturedShare share = texturedShare(r.stereo, r.segment.mask, block);
+  if (share.of_pixels < LEAST || share.of_matches < MAJORITY)
+    throw Failure(
+        "hardly anything on the object was matched: it has no texture, so what "
+        "the matcher gives is noise; put something with texture on it, project a "
+        "pattern, or use a depth camera (--depth).");
 }
 
 /** \brief Points of the mask that the border filter keeps. */
