@@ -163,6 +163,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
       front_options.matcher.value_or(best ? StereoMatcher::SGBM : StereoMatcher::BM);
   front_options.stereo.refine = front_options.refine.value_or(best);
   front_options.mask = model.mask;
+  const bool hinted = !model.roi.empty() || !model.mask.empty() || !model.box.empty() ||
+                      !front_options.click.empty() || !front_options.color.empty();
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
   for (const std::string& input :
@@ -195,6 +197,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   line.clear();
   if (best)
     requireBoxFilled(front, result);
+  if (best && !hinted)
+    requireNoDoubt(result);
   printNotes(result);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);

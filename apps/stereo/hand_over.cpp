@@ -105,6 +105,18 @@ void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
       cells.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
 }
 
+void requireNoDoubt(const ModelResult& result) {
+  // as much of outline and points must agree as of the object's pixels of any model
+  constexpr double LEAST = 0.8;
+  const double confidence = result.report.confidence;
+  if (confidence < LEAST)
+    throw Failure(
+        "what was taken for the object agrees with its model by " +
+        std::to_string(int(100.0 * confidence)) +
+        " % only, so it may be no thing on a table; draw a box around the object "
+        "(--roi) or click on it (--click).");
+}
+
 void requireBoxFilled(const FrontResult& front, const ModelResult& result) {
   constexpr double LEAST = 0.4;
   const CellMask& pixels = result.report.view.pixels;

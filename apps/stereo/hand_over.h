@@ -20,6 +20,10 @@ void dropStrays(const FrontResult& front, LoadedCloud& scene);
  * scene through the outline, the paper's chain at the object's points in their box. */
 void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model);
 
+/** \brief Refuses a model that leaves doubt where nobody pointed at the object: what
+ * was taken for one may be none. */
+void requireNoDoubt(const ModelResult& result);
+
 /** \brief Refuses what fills but a piece of the box that was drawn around the object,
  * where no outline tells them apart. */
 void requireBoxFilled(const FrontResult& front, const ModelResult& result);
