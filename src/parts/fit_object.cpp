@@ -7,7 +7,7 @@
 #include "parts/whole_cloud.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // One piece, one superquadric: fitted, and scored so that pieces compare (M17).
 #include "pieces/free_space.h"
 #include "pieces/piece_outline.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
 
 #include <algorithm>
 
