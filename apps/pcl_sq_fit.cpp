@@ -199,6 +199,7 @@ int main(int argc, char** argv) {
                      "a model. Clouds in parallel");
         app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
+        app::addCoverageOptions(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")

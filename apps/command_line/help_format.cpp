@@ -49,7 +49,7 @@ const std::vector<Group>& groups() {
         "--click",
         "--color",
         "--border-filter"}},
-      {"View and frame", {"--intrinsics", "--viewpoint", "--table", "--up"}},
+      {"View and frame", {"--intrinsics", "--viewpoint", "--table", "--up", "--complete", "--one-sided"}},
       {"Matching",
        {"--matcher",
         "--block-size",

@@ -183,12 +183,13 @@ bool observeObject(const CloudPoints& points,
                 std::to_string(width) + " x " + std::to_string(height) +
                 "; give the mask of the same image");
   PinholeCamera camera;
-  if (!organized || !findImage(points, width, height, view, camera)) {
+  const bool complete = view.coverage == Coverage::COMPLETE;
+  if (!organized || complete || !findImage(points, width, height, view, camera)) {
     if (organized && has_mask)
       return fail(
           "the cloud is no pinhole image, so that its mask cannot be used; give "
           "the intrinsics or leave out the mask");
-    if (organized)
+    if (organized && !complete)
       observed.notes.push_back(
           "the cloud is no image of a camera, although it has rows, so its outline is "
           "not used; give the camera's intrinsics if it is one");
