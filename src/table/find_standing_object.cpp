@@ -10,12 +10,13 @@ namespace {
 
 constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked for
 
-/** \brief Pixels that lie above a table, among all or some. */
-CellMask pixelsAbove(const TableModel& table,
-                     const CloudPoints& points,
-                     int width,
-                     int height,
-                     const std::vector<int>* within) {
+} // namespace
+
+CellMask detail::pixelsAbove(const TableModel& table,
+                             const CloudPoints& points,
+                             int width,
+                             int height,
+                             const std::vector<int>* within) {
   CellMask above(width, height);
   const auto look = [&](std::size_t i) {
     const Eigen::Vector3f p = points.col(Eigen::Index(i));
@@ -31,8 +32,6 @@ CellMask pixelsAbove(const TableModel& table,
       look(i);
   return above;
 }
-
-} // namespace
 
 bool findStandingObject(const CloudPoints& points,
                         int width,
