@@ -9,6 +9,7 @@
 #include "report/summary.h"
 #include "stereo/hand_over.h"
 #include "stereo/panel.h"
+#include "stereo/stereo_cloud.h"
 #include "stereo/stereo_front.h"
 
 #include <nlohmann/json.hpp>

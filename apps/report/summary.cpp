@@ -109,6 +109,8 @@ std::string wordsFor(const std::string& stage) {
       {"taper", "fitting tapers"},
       {"evaluate", "measuring"},
       {"grasp_points", "finding grasp points"},
+      {"look", "looking at the scene"},
+      {"table", "finding the table"},
       {"match", "matching the images"},
       {"segment", "finding the object in the image"},
       {"roi", "finding the object in depth"}};

@@ -6,10 +6,7 @@
 
 namespace pcl_sq::app {
 
-void addFrontOptions(CLI::App& cli, FrontOptions& o) {
-  cli.add_option("left", o.left, "Left image (with --depth: the colour image)")
-      ->type_name("LEFT");
-  cli.add_option("right", o.right, "Right image")->type_name("RIGHT");
+void addPairOptions(CLI::App& cli, FrontOptions& o) {
   cli.add_option("--calib",
                  o.calib,
                  "Calibration: OpenCV's YAML, XML or JSON, ROS camera_info (left and "
@@ -63,6 +60,13 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
                  o.depth_scale,
                  "Length of one step of it [m]; default: .001 of 16 bits, 1 of floats")
       ->check(positiveNumber(1000.0));
+}
+
+void addFrontOptions(CLI::App& cli, FrontOptions& o) {
+  cli.add_option("left", o.left, "Left image (with --depth: the colour image)")
+      ->type_name("LEFT");
+  cli.add_option("right", o.right, "Right image")->type_name("RIGHT");
+  addPairOptions(cli, o);
   cli.add_option(
          "--segment",
          o.segment,
@@ -84,7 +88,7 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
                "Texture-based filter of the object's rim (section IV)");
 }
 
-void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
+void checkPairOptions(const FrontOptions& o) {
   std::string why;
   if (!o.stereo.isValid(&why))
     throw UsageError(why + ".");
@@ -103,10 +107,14 @@ void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
       throw UsageError("give either a right image or --depth, not both.");
     if (o.intrinsics.size() != 4)
       throw UsageError("--depth needs --intrinsics FX,FY,CX,CY.");
-    if (o.left.empty() && o.mask.empty() && !roi.empty() && o.segment != "none")
-      throw UsageError(
-          "give the colour image, or --segment none, for the depth image.");
   }
+}
+
+void checkFrontOptions(const FrontOptions& o, const std::vector<int>& roi) {
+  checkPairOptions(o);
+  if (!o.depth.empty() && o.left.empty() && o.mask.empty() && !roi.empty() &&
+      o.segment != "none")
+    throw UsageError("give the colour image, or --segment none, for the depth image.");
   const bool box_only = o.segment == "none";
   if (!o.mask.empty() && !o.segment.empty() && !box_only)
     throw UsageError("give either --mask or --segment, not both.");

@@ -7,11 +7,6 @@
 
 namespace pcl_sq::app {
 
-/** \brief The stereo cloud in the programs' point type; only \a keep's points stay
- * finite, all of them if it is null. */
-LoadedCloud toLoadedCloud(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
-                          const pcl::Indices* keep);
-
 /** \brief Takes the points under the object's mask that lie far from its box out of a
  * scene: false matches along the outline, with the depth of what is behind. */
 void dropStrays(const FrontResult& front, LoadedCloud& scene);

@@ -168,7 +168,7 @@ void findRegion(FrontResult& r) {
 
 } // namespace
 
-FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
+FrontResult readViews(const FrontOptions& o) {
   FrontResult r;
   StageTimer timer(r.timings_ms, o.progress);
   if (o.depth.empty())
@@ -177,7 +177,12 @@ FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
     r.stereo = timer.run("load", [&] { return loadDepth(o, r.notes); });
   r.timings_ms.insert(
       r.timings_ms.end(), r.stereo.timings_ms.begin(), r.stereo.timings_ms.end());
+  return r;
+}
 
+FrontResult runFront(const FrontOptions& o, const std::vector<int>& roi) {
+  FrontResult r = readViews(o);
+  StageTimer timer(r.timings_ms, o.progress);
   const auto width = static_cast<int>(r.stereo.cloud->width);
   const auto height = static_cast<int>(r.stereo.cloud->height);
   if (!roi.empty() && (roi[0] >= width || roi[1] >= height || roi[0] + roi[2] <= 0 ||

@@ -20,6 +20,8 @@ bool ViewOptions::isValid(std::string* why) const {
     return false;
   if (mask.cells.size() != std::size_t(mask.width) * std::size_t(mask.height))
     return refuse("the mask must hold width * height pixels");
+  if (others.cells.size() != std::size_t(others.width) * std::size_t(others.height))
+    return refuse("the mask of others must hold width * height pixels");
   if (viewpoint && !viewpoint->allFinite())
     return refuse("the viewpoint must be finite");
   if (up && !(up->allFinite() && up->norm() > 1e-9))
@@ -108,14 +110,11 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
   return e;
 }
 
-namespace {
-
-/** \brief The camera of an organized cloud, its intrinsics those that are known. */
-bool findImage(const CloudPoints& points,
-               int width,
-               int height,
-               const ViewOptions& view,
-               PinholeCamera& camera) {
+bool detail::findImage(const CloudPoints& points,
+                       int width,
+                       int height,
+                       const ViewOptions& view,
+                       PinholeCamera& camera) {
   const bool found = findCamera(points, width, height, view.viewpoint, camera);
   if (!view.camera)
     return found;
@@ -127,6 +126,8 @@ bool findImage(const CloudPoints& points,
     camera = *view.camera;
   return true;
 }
+
+namespace {
 
 /** \brief Tells of a viewpoint that is not where an image of points was taken from, by
  * a tenth of the distance to its middle or more: nearer, it is an estimate of the same.
@@ -182,6 +183,10 @@ bool observeObject(const CloudPoints& points,
                 std::to_string(view.mask.height) + " pixels, the cloud " +
                 std::to_string(width) + " x " + std::to_string(height) +
                 "; give the mask of the same image");
+  if (!view.others.cells.empty() &&
+      (view.others.width != width || view.others.height != height))
+    return fail("the mask of others has another size than the cloud; give the mask of "
+                "the same image");
   PinholeCamera camera;
   const bool complete = view.coverage == Coverage::COMPLETE;
   if (!organized || complete || !findImage(points, width, height, view, camera)) {

@@ -221,20 +221,26 @@ DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
 
 } // namespace
 
+std::vector<Region> regionsOf(const CloudPoints& points, const CellMask& above) {
+  Regions regions(points, above);
+  std::vector<Region> all;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
+    if (r.pixels.size() >= std::size_t(MIN_PIECE))
+      all.push_back(std::move(r));
+  return all;
+}
+
 Region largestThing(const CloudPoints& points,
                     const CellMask& above,
                     const TableModel& table) {
-  Regions regions(points, above);
-  std::vector<Region> all;
+  const std::vector<Region> all = regionsOf(points, above);
   Region best;
-  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
+  for (const Region& r : all) {
     const bool better = r.cut() == best.cut() ? r.pixels.size() > best.pixels.size()
                                               : best.cut() || best.pixels.empty();
     if (r.pixels.size() >= std::size_t(MIN_PIXELS) && r.cutOnce() && better &&
         !floats(points, table, r.pixels))
       best = r;
-    if (r.pixels.size() >= std::size_t(MIN_PIECE))
-      all.push_back(std::move(r));
   }
   if (!best.pixels.empty())
     addPieces(all, points, above.width, table, best);
@@ -246,11 +252,7 @@ std::vector<int> thingOfBox(const CloudPoints& points,
                             const CellRect& box,
                             float size) {
   const int width = above.width;
-  Regions regions(points, above);
-  std::vector<Region> all;
-  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
-    if (r.pixels.size() >= std::size_t(MIN_PIECE))
-      all.push_back(std::move(r));
+  std::vector<Region> all = regionsOf(points, above);
   std::vector<int> thing;
   double fit = MIN_OVERLAP;
   const auto merged = [&](const Region& r) {
