@@ -105,7 +105,9 @@ bool fitLine(const std::string& path,
   std::string sentence;
   try {
     app::LoadedCloud input;
-    line = toJson(fit(path, options, input).file, -1);
+    const app::ModelResult result = fit(path, options, input);
+    app::printNotes(result, path);
+    line = toJson(result.file, -1);
     return true;
   } catch (const std::exception& error) {
     sentence = app::sentenceOf(error);

@@ -82,6 +82,19 @@ ModelResult makeNearModel(const LoadedCloud& input,
                           const ModelOptions& options,
                           double load_ms);
 
+/** \brief Tells the result of table, up and the camera's place, as far as they are
+ * known. \param[in] removed the table that the object was taken off */
+void tellFrame(const LoadedCloud& input,
+               const ModelOptions& options,
+               const std::optional<TableModel>& removed,
+               ModelResult& result);
+
+/** \brief Tells the result's file of the model and of what its report says of it. */
+void tellModel(const LoadedCloud& input,
+               const std::string& input_path,
+               const MultiSuperquadric& model,
+               ModelResult& result);
+
 /** \brief Gives the model's parts their tapers, where the data demand any.
  * \return whether they do \throw Failure if the points allow no fit */
 bool addTaper(const LoadedCloud& input,

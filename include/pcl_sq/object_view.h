@@ -33,6 +33,10 @@ struct PCL_SQ_EXPORTS ViewOptions {
   std::optional<PinholeCamera> camera;
   /** \brief Pixels of the object and nothing else; empty: found in the depth. */
   CellMask mask;
+  /** \brief Pixels of other things in an organized cloud: where they are not clearly
+   * behind the object, its outline beside them is theirs, and what they hide is not
+   * free. Empty: what hides the object is told by the depth alone. */
+  CellMask others;
   /** \brief The camera's place in the cloud's frame [m]. */
   std::optional<Eigen::Vector3d> viewpoint;
   /** \brief Whether the points are those of one view; COMPLETE makes no use of a

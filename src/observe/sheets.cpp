@@ -13,13 +13,14 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t NEIGHBOURS = 32, NEAREST = 10;
-constexpr int ROUNDS = 4; ///< of fitting a plane to the half of the points nearest to it
-/** \brief Standard deviation over the root mean square of the half of normal values that
- * is nearest to zero. */
+constexpr int ROUNDS =
+    4; ///< of fitting a plane to the half of the points nearest to it
+/** \brief Standard deviation over the root mean square of the half of normal values
+ * that is nearest to zero. */
 constexpr double OF_HALF = 2.6477;
 constexpr double BEYOND = 4.0; ///< sigmas of another sheet from the own one
 constexpr std::size_t FEWEST = 5;
-constexpr double EVEN = 0.25; ///< mean deviation of another sheet, over its distance
+constexpr double EVEN = 0.25;  ///< mean deviation of another sheet, over its distance
 constexpr double BESIDE = 0.5; ///< of its middle across the normal, over the radius
 /** \brief Share of the surface that is smooth at the least: legs and edges bend within a
  * neighbourhood. What that quantile of the scatters of NEIGHBOURS points of one noise is

@@ -82,6 +82,18 @@ void keepNearer(const Superquadric& body,
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
   }
+  if (body.isTapered() && !body.isCut()) {
+    // where it matters, at the surface, the first-order distance is as good
+    for (const Eigen::Index i : near) {
+      const Place place = placeOf(body, turn * (points.col(i) - body.center));
+      const double slope = logGradient(body, place).norm();
+      const double distance =
+          slope > 0.0 ? place.gauge.value / slope : -body.semi_axes.minCoeff();
+      if (distance < distances[i])
+        distances[i] = distance;
+    }
+    return;
+  }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)
     nearby.col(static_cast<Eigen::Index>(k)) = points.col(near[k]);

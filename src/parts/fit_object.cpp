@@ -8,7 +8,7 @@
 #include "parts/whole_cloud.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
 
 #include <algorithm>
 
@@ -107,7 +107,12 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
       context.observed, options, context.noise, context.precision, context.limits};
   if (whole.fit.chosen.shape == ShapeClass::VESSEL)
     fitPiece(solids, whole, Effort::AGAIN);
-  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  return fitOutside(
+      solids,
+      splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain),
+      wanted,
+      exactly,
+      min_gain);
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of
@@ -211,7 +216,9 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
     } else if (!fitWholeVessel(context, pieces))
       pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
-    finish(context, pieces);
+    ObjectFitOptions last = options; // of a whole cloud the solids are no vessels
+    last.fit.vessel = last.fit.vessel && observed.hasCamera();
+    finish({observed, last, context.noise, context.precision, context.limits}, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -10,8 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double GOOD_FIT = 1.6;  ///< cost per observation of a part that needs no cut
-constexpr std::size_t TRIED = 4;    ///< best cuts that are fitted in full
+constexpr double GOOD_FIT = 1.6; ///< cost per observation of a part that needs no cut
+constexpr std::size_t TRIED = 4; ///< best cuts that are fitted in full
 /** \brief Score of quick fits from which on a cut is not worth full ones: over what it
  * is to beat, and the factor over the best cut's. */
 constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;

@@ -2,10 +2,13 @@
 #include "parts/union_score.h"
 
 #include "parts/exposed_area.h"
-#include "view_fit/plane_cost.h"
+#include "view_problem/plane_cost.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace pcl_sq::detail {
 
@@ -29,6 +32,23 @@ struct BodyTrace {
   SurfaceCells cells;
   Eigen::ArrayXd half; ///< sizes of the cells [m]
   double sticks_out = 0.0; ///< of the points' box [m]
+
+  /** \brief Distances of the cells to another body, where those are near. */
+  const Eigen::VectorXd& to(const BodyTrace& other) const {
+    const std::lock_guard<std::mutex> lock(mutex);
+    Eigen::VectorXd& beyond = met[other.number];
+    if (beyond.size() == 0) {
+      beyond = half;
+      keepNearer(other.model, cells.middles, half, beyond);
+    }
+    return beyond;
+  }
+
+private:
+  static inline std::atomic<std::size_t> made{0};
+  const std::size_t number = made++; ///< tells bodies apart, also those that are gone
+  mutable std::mutex mutex;
+  mutable std::map<std::size_t, Eigen::VectorXd> met;
 };
 
 namespace {
@@ -104,7 +124,7 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
     Eigen::VectorXd beyond = own.half;
     for (const Part* other : parts)
       if (other != part && own.box.intersects(other->trace->box))
-        keepNearer(other->trace->model, own.cells.middles, own.half, beyond);
+        beyond = beyond.cwiseMin(own.to(*other->trace));
     // a cell that another part's surface crosses counts in part
     area += ((0.5 + 0.5 * beyond.array() / own.half).max(0.0) * own.cells.areas).sum();
   }

@@ -22,8 +22,6 @@ constexpr double QUICK_SLACK = 60.0;
 /** \brief Steps that are taken although they do not pay: one cut of a handle with two
  * corners, or of a table with legs at its corners, helps little. */
 constexpr int PATIENCE = 2;
-/** \brief Cost per point from which on parts are cut against the score at first. */
-constexpr double POOR = 1.5;
 constexpr double OFF = 4.0; ///< noise that a point lies off a body it is not of
 
 /** \brief Parts that may take another's place, quickly fitted. */

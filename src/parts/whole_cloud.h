@@ -19,8 +19,14 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    bool exactly,
                                    double min_gain);
 
-/** \brief Points of a cloud without those that have others beyond them as seen from the
- * middle: the inner sides of walls. */
-std::vector<int> outerPoints(const Eigen::Matrix3Xd& points, double noise);
+/** \brief The outside of a hollow thing as parts, where the parts of all points explain
+ * those badly and those of the outer points explain theirs well.
+ * \param[in] pieces the parts of all points \return them or those of the outer points;
+ * the other arguments as of splitWholeCloud() */
+std::vector<Piece> fitOutside(const PieceContext& context,
+                              std::vector<Piece> pieces,
+                              int wanted,
+                              bool exactly,
+                              double min_gain);
 
 } // namespace pcl_sq::detail

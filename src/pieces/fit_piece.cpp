@@ -2,7 +2,7 @@
 // One piece, one superquadric: fitted, and scored so that pieces compare (M17).
 #include "pieces/free_space.h"
 #include "pieces/piece_outline.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
 
 #include <algorithm>
 
@@ -17,7 +17,6 @@ constexpr int QUICK_STARTS = 4;
 constexpr double PART_EPSILON = 1.0;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
-
 
 /** \brief Whether a piece reaches the table: its lowest points are on it, or nobody
  * saw that it ends before. \param[in] whole whether it is all of the object */

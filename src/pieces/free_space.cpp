@@ -3,7 +3,7 @@
 
 #include "pcl_sq/line_intersection.h"
 #include "pieces/body_outline.h"
-#include "view_fit/plane_cost.h"
+#include "view_problem/plane_cost.h"
 
 #include <algorithm>
 

@@ -162,8 +162,7 @@ std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all,
     }
   }
   if (one_sided)
-    return middle +
-           FAR * extent * (sum.norm() > 1e-6 ? sum.normalized() : roundest);
+    return middle + FAR * extent * (sum.norm() > 1e-6 ? sum.normalized() : roundest);
   if (passed < FEWEST * DIRECTIONS || passed > MOST * DIRECTIONS ||
       !(sum.norm() > 1e-6))
     return std::nullopt;
