@@ -12,7 +12,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
+constexpr int CELLS = 6; ///< per edge of an octant of the cube projected onto a part
 constexpr int OCTANT = 3 * CELLS * CELLS;
 
 /** \brief Of a body with a rim: the triangles of its mesh. */

@@ -216,9 +216,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
     } else if (!fitWholeVessel(context, pieces))
       pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
-    ObjectFitOptions last = options; // of a whole cloud the solids are no vessels
-    last.fit.vessel = last.fit.vessel && observed.hasCamera();
-    finish({observed, last, context.noise, context.precision, context.limits}, pieces);
+    if (observed.hasCamera())
+      finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -21,7 +21,7 @@ constexpr double SIGMAS = 4.0;
 constexpr double SAGITTA = 0.1;
 
 constexpr double OFF = 4.0;   ///< noise from which on a point is off a model
-constexpr double POOR = 0.15; ///< share of such points of a model that is none
+constexpr double POOR = 0.3;  ///< share of such points of a model that is none
 /** \brief Shares of the points on the outside of hollow things. */
 constexpr double LEAST = 0.3, MOST = 0.8;
 constexpr double BETTER = 0.5; ///< share of points off the outside, over that of all

@@ -17,6 +17,9 @@ namespace {
 constexpr std::size_t MIN_POINTS = 24;
 /** \brief Density of outliers over the Gaussian's peak, as in the fits. */
 constexpr double OUTLIER = 0.01;
+/** \brief Distance over the noise from which on a point costs the same, to the last
+ * digit. */
+constexpr double OUTLYING = 9.0;
 /** \brief A body may leave the box of the points by so much of the box's half diagonal
  * before its fit is repeated within the box, and where it then still does, it is no
  * part: points show all sides, and what is beyond them is empty. */
@@ -53,13 +56,30 @@ private:
 
 namespace {
 
+/** \brief Signed distances to a tapered body: first-order ones where they make no
+ * difference, for those of foot points cost ten times as much. */
+Eigen::VectorXd taperedDistances(const Superquadric& model,
+                                 const Eigen::Matrix3Xd& points,
+                                 double reach) {
+  Eigen::VectorXd distances(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    distances[i] = model.firstOrderDistance(points.col(i));
+    if (std::abs(distances[i]) < 2.0 * reach)
+      distances[i] = model.footPointDistance(points.col(i));
+  }
+  return distances;
+}
+
 std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
                                          const Superquadric& model) {
   auto trace = std::make_shared<BodyTrace>();
   const Eigen::Matrix3Xd& points = context.observed.points;
   trace->model = model;
   trace->box = model.boundingBox();
-  trace->distances = surfaceDistances(model, points);
+  trace->distances =
+      model.isTapered() && !model.isCut()
+          ? taperedDistances(model, points, OUTLYING * context.noise)
+          : surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
   trace->half = 0.5 * trace->cells.areas.sqrt();
   trace->sticks_out =
@@ -106,15 +126,23 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
   }
 }
 
+double costOf(const PieceContext& context, const std::vector<const Part*>& parts) {
+  // the smallest signed distance is that to the union
+  Eigen::ArrayXd distances =
+      Eigen::ArrayXd::Constant(context.observed.points.cols(), 1e300);
+  for (const Part* part : parts)
+    distances = distances.min(part->trace->distances.array());
+  const Eigen::ArrayXd z = distances / context.noise;
+  return -2.0 *
+         (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
+}
+
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
   const ObservedObject& o = context.observed;
-  Eigen::ArrayXd distances = Eigen::ArrayXd::Constant(o.points.cols(), 1e300);
   double parameters = 0.0, demand = 0.0, area = 0.0;
   for (const Part* part : parts) {
     if (!part->trace || part->trace->sticks_out > BEYOND * o.extent)
       return 1e300;
-    // the smallest signed distance is that to the union
-    distances = distances.min(part->trace->distances.array());
     parameters += part->piece.fit.chosen.parameters;
     if (part->trace->model.isTapered())
       demand += TAPER;
@@ -128,11 +156,7 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
     // a cell that another part's surface crosses counts in part
     area += ((0.5 + 0.5 * beyond.array() / own.half).max(0.0) * own.cells.areas).sum();
   }
-  const Eigen::ArrayXd z = distances / context.noise;
-  const double cost =
-      -2.0 *
-      (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
-  return (cost / double(distances.size()) +
+  return (costOf(context, parts) / double(o.points.cols()) +
           2.0 * std::log(area / (o.extent * o.extent))) *
              o.effective_points +
          parameters * std::log(1.0 + o.effective_points) + demand;

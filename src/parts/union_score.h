@@ -26,6 +26,10 @@ void traceAgain(const PieceContext& context, Part& part);
 /** \brief Signed distance of an observed point to a part's body [m]. */
 [[nodiscard]] double distanceOf(const Part& part, int column);
 
+/** \brief Cost of the points' distances to the union, summed over all of them. */
+[[nodiscard]] double costOf(const PieceContext& context,
+                            const std::vector<const Part*>& parts);
+
 /** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price;
  * smaller is better.
  *
