@@ -174,16 +174,17 @@ int work(Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  return run(argc,
-             argv,
-             "pcl_sq_scene",
-             "Fits unions of superquadrics to all things on a table in one view: an "
-             "organized point cloud, a stereo pair or a depth image.",
-             "  pcl_sq_scene scene.pcd -o scene.json --panel scene.png\n"
-             "  pcl_sq_scene scene.pcd --labels labels.png -o scene.json\n"
-             "  pcl_sq_scene im0.png im1.png --calib calib.txt -o scene.json\n"
-             "  pcl_sq_scene color.png --depth depth.png --intrinsics "
-             "616,616,310,237 --write-labels things.png\n",
-             [&](CLI::App& cli) { configure(cli, arguments); },
-             [&] { return work(arguments); });
+  return run(
+      argc,
+      argv,
+      "pcl_sq_scene",
+      "Fits unions of superquadrics to all things on a table in one view: an "
+      "organized point cloud, a stereo pair or a depth image.",
+      "  pcl_sq_scene scene.pcd -o scene.json --panel scene.png\n"
+      "  pcl_sq_scene scene.pcd --labels labels.png -o scene.json\n"
+      "  pcl_sq_scene im0.png im1.png --calib calib.txt -o scene.json\n"
+      "  pcl_sq_scene color.png --depth depth.png --intrinsics "
+      "616,616,310,237 --write-labels things.png\n",
+      [&](CLI::App& cli) { configure(cli, arguments); },
+      [&] { return work(arguments); });
 }

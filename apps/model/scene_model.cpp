@@ -81,8 +81,7 @@ SceneResult makeSceneFile(const LoadedCloud& input,
   SceneFile& file = result.file;
   if (scene.table) {
     const Eigen::Vector3d& n = scene.table->normal;
-    file.table = {
-        n.x(), n.y(), n.z(), scene.table->offset - n.dot(input.offset)};
+    file.table = {n.x(), n.y(), n.z(), scene.table->offset - n.dot(input.offset)};
   }
   file.frame = input.cloud->header.frame_id;
   file.input_path = input_path;

@@ -19,7 +19,7 @@ struct SceneChoices {
 struct SceneResult {
   SceneFile file;
   std::vector<ModelResult> things; ///< one per object of the file
-  LabelImage labels;               ///< pixels of all things; those of thing k: numbers[k]
+  LabelImage labels; ///< pixels of all things; those of thing k: numbers[k]
   std::vector<int> numbers;
 };
 

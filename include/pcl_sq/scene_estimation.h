@@ -46,7 +46,7 @@ struct SceneObject {
 
 /** \brief A table and the things on it. */
 struct Scene {
-  std::optional<TableModel> table; ///< in the cloud's frame
+  std::optional<TableModel> table;  ///< in the cloud's frame
   std::vector<SceneObject> objects; ///< from left to right in the image
   /** \brief Pixels of all things, also of those that gave no model. */
   LabelImage labels;

@@ -9,10 +9,10 @@ namespace pcl_sq {
 /** \brief One thing of a scene file: what a model file holds, and where it was seen. */
 struct SceneFileObject {
   ModelFile file;
-  CellRect roi;           ///< box of its pixels in the image [px]
-  int pixels = 0;         ///< seen of it
-  double visible = 1.0;   ///< share of it that nothing nearer hides, [0, 1]
-  double confidence = 0.0; ///< see EstimationReport::confidence, [0, 1]
+  CellRect roi;                   ///< box of its pixels in the image [px]
+  int pixels = 0;                 ///< seen of it
+  double visible = 1.0;           ///< share of it that nothing nearer hides, [0, 1]
+  double confidence = 0.0;        ///< see EstimationReport::confidence, [0, 1]
   std::vector<std::string> notes; ///< fall-backs, one sentence each
 };
 

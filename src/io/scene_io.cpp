@@ -18,7 +18,8 @@ constexpr int VERSION = 1;
 constexpr std::size_t MOST_OBJECTS = 65535; ///< as many as labels tell apart
 
 /** \brief Members that an object has besides those of a model file. */
-const std::vector<const char*> OWN = {"roi", "pixels", "visible", "confidence", "notes"};
+const std::vector<const char*> OWN = {
+    "roi", "pixels", "visible", "confidence", "notes"};
 
 /** \brief A refusal with its reason; does not leave this file. */
 struct Refusal {
@@ -101,9 +102,8 @@ SceneFileObject objectFromJson(Json json) {
   for (const char* key : OWN)
     json.erase(key);
   std::string why;
-  if (!fromJson(json.dump(-1, ' ', false, Json::error_handler_t::replace),
-                object.file,
-                &why))
+  if (!fromJson(
+          json.dump(-1, ' ', false, Json::error_handler_t::replace), object.file, &why))
     throw Refusal{why};
   if (object.file.model.empty())
     throw Refusal{"it has no superquadric"};
@@ -131,7 +131,8 @@ void readInput(const Json& json, SceneFile& file) {
     return;
   const auto countOf = [&input](const char* key) -> std::size_t {
     const auto it = input->find(key);
-    const double count = it != input->end() && it->is_number() ? it->get<double>() : 0.0;
+    const double count =
+        it != input->end() && it->is_number() ? it->get<double>() : 0.0;
     return count > 0.0 && count < 1e15 ? static_cast<std::size_t>(count) : 0;
   };
   file.input_path = textOf(*input, "path");
@@ -202,10 +203,8 @@ MultiSuperquadric SceneFile::all(std::size_t without) const {
 }
 
 std::string toJson(const SceneFile& file, int indent) {
-  Json json = {{"schema", SCHEMA},
-               {"version", VERSION},
-               {"unit", "m"},
-               {"frame", file.frame}};
+  Json json = {
+      {"schema", SCHEMA}, {"version", VERSION}, {"unit", "m"}, {"frame", file.frame}};
   if (file.table)
     json["table"] = *file.table;
   json["objects"] = Json::array();

@@ -18,8 +18,9 @@ namespace pcl_sq {
 bool SceneOptions::isValid(std::string* why) const {
   detail::OptionCheck check(why);
   check.inRange("min_pixels", min_pixels, 30, 1000000);
-  check.require(estimation.decomposition == Decomposition::PARTS,
-                "a scene's things are fitted by parts; leave the decomposition at PARTS");
+  check.require(
+      estimation.decomposition == Decomposition::PARTS,
+      "a scene's things are fitted by parts; leave the decomposition at PARTS");
   check.require(estimation.view.mask.cells.empty() &&
                     estimation.view.others.cells.empty(),
                 "a scene's things have labels, not a mask; use setLabels()");
@@ -29,6 +30,9 @@ bool SceneOptions::isValid(std::string* why) const {
 namespace detail {
 
 namespace {
+
+/** \brief Noise and dilation of an outline that colours told [px]. */
+constexpr double FOUND_OUTLINE = 1.0, FOUND_DILATION = 0.7;
 
 /** \brief One estimation: the input, the settings and what is found. */
 class SceneEstimator {
@@ -72,15 +76,18 @@ private:
   Eigen::Matrix3Xf chosen_, moved_;
   PinholeCamera camera_;
   std::vector<pcl::Indices> things_; ///< pixels of each
+  std::vector<bool> outlined_;       ///< of each label found, by colours
 };
 
 /** \brief The cloud as an image. */
 bool SceneEstimator::look() {
   if (input_.width < 2 || input_.height < 2)
-    return fail("a scene is seen in an organized cloud, an image of points; this one is "
-                "a list: fit its things one by one");
+    return fail(
+        "a scene is seen in an organized cloud, an image of points; this one is "
+        "a list: fit its things one by one");
   const LabelImage& labels = input_.labels;
-  if (!labels.empty() && (labels.width != input_.width || labels.height != input_.height))
+  if (!labels.empty() &&
+      (labels.width != input_.width || labels.height != input_.height))
     return fail("the labels have " + std::to_string(labels.width) + " x " +
                 std::to_string(labels.height) + " pixels, the cloud " +
                 std::to_string(input_.width) + " x " + std::to_string(input_.height) +
@@ -140,7 +147,9 @@ bool SceneEstimator::tellApart() {
                          input_.colors,
                          camera,
                          CameraPose(camera_).toCamera(*scene_.table)};
-    scene_.labels = segmentScene(view, options_.min_pixels);
+    SceneSegments segments = segmentScene(view, options_.min_pixels);
+    scene_.labels = std::move(segments.labels);
+    outlined_ = std::move(segments.outlined);
   }
   std::vector<pcl::Indices> of_label;
   for (std::size_t i = 0; i < scene_.labels.values.size(); ++i) {
@@ -185,10 +194,16 @@ void SceneEstimator::fit(const pcl::Indices& pixels, SceneObject& object) const 
   options.view.others = std::move(others);
   if (!input_.labels.empty())
     options.view.mask = std::move(own);
+  else if (outlined_[std::size_t(object.label)]) {
+    options.view.mask = std::move(own);
+    options.view.mask_sigma = FOUND_OUTLINE;
+    options.view.mask_dilation = FOUND_DILATION;
+  }
   const std::optional<RoiBox> anywhere;
   const CoordinateMap map =
-      input_.chosen ? CoordinateMap(chosen_.data(), 3, chosen_.cols(), Eigen::OuterStride<>(3))
-                    : input_.points;
+      input_.chosen
+          ? CoordinateMap(chosen_.data(), 3, chosen_.cols(), Eigen::OuterStride<>(3))
+          : input_.points;
   const EstimationInput one{map,
                             input_.width,
                             input_.height,

@@ -48,7 +48,8 @@ CellRect boxInImage(const MultiSuperquadric& model,
     return int(std::clamp(std::round(v), 0.0, double(size - 1)));
   };
   const int x = cell(box.min().x(), width), y = cell(box.min().y(), height);
-  return {x, y, cell(box.max().x(), width) - x + 1, cell(box.max().y(), height) - y + 1};
+  return {
+      x, y, cell(box.max().x(), width) - x + 1, cell(box.max().y(), height) - y + 1};
 }
 
 } // namespace

@@ -38,7 +38,7 @@ ColorMatrix colorsOf(const pcl::PointCloud<PointT>& cloud) {
 struct SceneInput {
   CoordinateMap points;
   int width, height;
-  ColorMatrix colors; ///< empty: none
+  ColorMatrix colors;            ///< empty: none
   Eigen::Vector3d sensor_origin; ///< [m]
   const pcl::PCLHeader& header;
   const pcl::Indices& indices;
