@@ -16,9 +16,9 @@ constexpr std::size_t SCRAP = 150; ///< pixels too few for a body of their own
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
 constexpr int LEAST_BORDER = 3;    ///< pairs of pixels that make a contact
 constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
-constexpr double STANDS = 3.0;     ///< standing heights: lower, and it reaches the table
-constexpr double OVERLAP = 0.9;    ///< of a footprint's radius: in each other's place
-constexpr double NEAR = 0.5;       ///< of the larger thing's size: belongs to it
+constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
+constexpr double OVERLAP = 0.9; ///< of a footprint's radius: in each other's place
+constexpr double NEAR = 0.5;    ///< of the larger thing's size: belongs to it
 
 /** \brief Where things stand: a circle on the table. */
 struct Footprint {
@@ -29,7 +29,8 @@ struct Footprint {
 class Joiner {
 public:
   Joiner(const SceneView& view, Patches patches)
-      : view_(view), list_(std::move(patches.list)), borders_(std::move(patches.borders)) {}
+      : view_(view), list_(std::move(patches.list)),
+        borders_(std::move(patches.borders)) {}
 
   std::vector<Patch> run() {
     joinScraps();
@@ -159,7 +160,8 @@ private:
       for (int a = 0; a < int(list_.size()) && !joined; ++a)
         for (int b = 0; b < int(list_.size()) && !joined; ++b)
           if (a != b && alive(a) && alive(b) &&
-              list_[std::size_t(a)].pixels.size() >= list_[std::size_t(b)].pixels.size() &&
+              list_[std::size_t(a)].pixels.size() >=
+                  list_[std::size_t(b)].pixels.size() &&
               view_.colors.cols() > 0 && sameColor(a, b) && offset(a, b) < OVERLAP) {
             join(b, a);
             joined = true;
@@ -200,7 +202,8 @@ private:
         if (!alive(a) || stands(list_[std::size_t(a)]))
           continue;
         for (int b = 0; b < int(list_.size()); ++b) {
-          if (b == a || !alive(b) || list_[std::size_t(b)].low > list_[std::size_t(a)].low)
+          if (b == a || !alive(b) ||
+              list_[std::size_t(b)].low > list_[std::size_t(a)].low)
             continue;
           const double d = apart(a, b);
           if (d < best) {
@@ -216,7 +219,8 @@ private:
     }
   }
 
-  /** \brief How far a floating patch is from another, in sizes; infinite beyond reach. */
+  /** \brief How far a floating patch is from another, in sizes; infinite beyond reach.
+   */
   double apart(int a, int b) const {
     const auto border = borders_.find(std::minmax(a, b));
     const double color =

@@ -31,8 +31,7 @@ Eigen::Matrix3Xd sample(const SceneView& view, const std::vector<int>& pixels) {
 }
 
 double halfDiagonal(const Eigen::Matrix3Xd& points) {
-  return 0.5 *
-         (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
 } // namespace

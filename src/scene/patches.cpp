@@ -9,13 +9,13 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double SAME_COLOR = 1.0;  ///< of colorDistance(), neighbours'
-constexpr double SAME_PATCH = 1.5;  ///< of whole patches
-constexpr double JUMPS = 0.5;       ///< of a border, at which it is an edge in depth
-constexpr double CREASE = 0.7;      ///< angle of normals [rad], concave: a fold
-constexpr double STRAYS = 0.02;     ///< of a patch's pixels
+constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
+constexpr double SAME_PATCH = 1.5; ///< of whole patches
+constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
+constexpr double CREASE = 0.7;     ///< angle of normals [rad], concave: a fold
+constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
-constexpr int RIM = 3;              ///< pixels that matching windows fatten things by
+constexpr int RIM = 3;               ///< pixels that matching windows fatten things by
 constexpr double LEAST_INSIDE = 0.1; ///< of the pixels of what is more than a rim
 
 class DisjointSets {
@@ -69,7 +69,8 @@ bool isThin(const std::vector<int>& pixels, int width, int height) {
   std::size_t inside = 0;
   for (const int c : pixels) {
     const int x = c % width, y = c / width;
-    inside += mask(x - RIM, y) && mask(x + RIM, y) && mask(x, y - RIM) && mask(x, y + RIM);
+    inside +=
+        mask(x - RIM, y) && mask(x + RIM, y) && mask(x, y - RIM) && mask(x, y + RIM);
   }
   return double(inside) < LEAST_INSIDE * double(pixels.size());
 }
@@ -95,7 +96,8 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
   std::vector<PieceSums> sums = superpixels.pieces;
   for (const Link& link : links) {
     const int a = sets.root(link.a), b = sets.root(link.b);
-    if (a == b || colorDistance(sums[std::size_t(a)], sums[std::size_t(b)]) > SAME_PATCH)
+    if (a == b ||
+        colorDistance(sums[std::size_t(a)], sums[std::size_t(b)]) > SAME_PATCH)
       continue;
     sets.join(b, a);
     sums[std::size_t(a)].add(sums[std::size_t(b)]);

@@ -18,7 +18,7 @@ struct Patch {
 
 struct Patches {
   std::vector<Patch> list;
-  std::vector<int> of_pixel; ///< -1: none
+  std::vector<int> of_pixel;                     ///< -1: none
   std::map<std::pair<int, int>, Border> borders; ///< smaller index first
 };
 

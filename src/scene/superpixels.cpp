@@ -12,9 +12,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int STEP = 9;      ///< pixels between the seeds
-constexpr int ROUNDS = 4;    ///< of assignment; more change little
-constexpr int REACH = 2;     ///< pixels across which pieces touch: missing ones between
+constexpr int STEP = 9;   ///< pixels between the seeds
+constexpr int ROUNDS = 4; ///< of assignment; more change little
+constexpr int REACH = 2;  ///< pixels across which pieces touch: missing ones between
 constexpr double SIGMAS = 3.0; ///< of the depth's noise: more is a jump
 /** \brief Tangent of the steepest slope to the ray at which a surface is still seen:
  * depth cameras see nothing below some 10 degrees. */
@@ -36,7 +36,8 @@ class Divider {
 public:
   Divider(const SceneView& view, const CellMask& pixels)
       : view_(view), pixels_(pixels), noise_(depthNoise(view)),
-        columns_((view.width + STEP - 1) / STEP), rows_((view.height + STEP - 1) / STEP) {
+        columns_((view.width + STEP - 1) / STEP),
+        rows_((view.height + STEP - 1) / STEP) {
     seeds_.resize(std::size_t(columns_) * std::size_t(rows_));
     for (std::size_t i = 0; i < pixels.cells.size(); ++i)
       if (pixels.cells[i])
@@ -95,9 +96,8 @@ private:
         const Seed& s = seeds_[std::size_t(j * columns_ + i)];
         if (s.count == 0.0F)
           continue;
-        const float d =
-            (at - s.at).cwiseProduct(scale).squaredNorm() +
-            0.25F * (shades_[std::size_t(c)] - s.shade).squaredNorm();
+        const float d = (at - s.at).cwiseProduct(scale).squaredNorm() +
+                        0.25F * (shades_[std::size_t(c)] - s.shade).squaredNorm();
         if (d < best) {
           best = d;
           of_pixel_[std::size_t(c)] = j * columns_ + i;
@@ -137,7 +137,8 @@ private:
           if (size[std::size_t(other)] < SCRAP)
             return;
           const double off =
-              double((shades_[std::size_t(c)] - shades_[std::size_t(d)]).squaredNorm()) +
+              double(
+                  (shades_[std::size_t(c)] - shades_[std::size_t(d)]).squaredNorm()) +
               std::pow(double(view_.points(2, c) - view_.points(2, d)) /
                            (SIGMAS * noise_ * std::pow(double(view_.points(2, c)), 2)),
                        2);

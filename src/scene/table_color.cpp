@@ -11,13 +11,14 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int CELL = 40;             ///< pixels of the coarse grid: light changes slowly
-constexpr float SAME_COLOR = 1.0F;   ///< steps of shadeOf()
-constexpr float LIKE_TABLE = 0.5F;   ///< the same of a mean over several pixels
-constexpr float CLEARLY = 0.5F;      ///< of the distance to the table: the thing's own
-constexpr double OUTLINED = 0.7;     ///< of the outline, that is an edge of the colour
-constexpr double HIGHEST = 2.0;      ///< standing heights about the table
-constexpr int MISSING = 4;           ///< pixels without depth that are bridged
+constexpr int CELL = 40;           ///< pixels of the coarse grid: light changes slowly
+constexpr float SAME_COLOR = 1.0F; ///< steps of shadeOf()
+constexpr float UNEVEN = 2.0F;     ///< the same, between places of one table
+constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels
+constexpr float CLEARLY = 0.5F;    ///< of the distance to the table: the thing's own
+constexpr double OUTLINED = 0.7;   ///< of the outline, that is an edge of the colour
+constexpr double HIGHEST = 2.0;    ///< standing heights about the table
+constexpr int MISSING = 4;         ///< pixels without depth that are bridged
 
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
@@ -30,27 +31,40 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
     return;
   columns_ = (view.width + CELL - 1) / CELL;
   rows_ = (view.height + CELL - 1) / CELL;
-  std::vector<Eigen::Vector3d> sums(std::size_t(columns_) * std::size_t(rows_),
-                                    Eigen::Vector3d::Zero());
-  std::vector<double> counts(sums.size(), 0.0);
-  Eigen::Vector3d all = Eigen::Vector3d::Zero();
-  double count = 0.0;
+  std::vector<int> level; // pixels at the table's height, thin things' among them
   for (int y = 0; y < view.height; y += 2)
     for (int x = 0; x < view.width; x += 2) {
       const int c = y * view.width + x;
-      if (above(x, y) || !view.finite(c) ||
-          std::abs(view.table.height(view.at(c))) >
+      if (!above(x, y) && view.finite(c) &&
+          std::abs(view.table.height(view.at(c))) <=
               standingHeight(view.table, double(view.points(2, c))))
-        continue;
-      const std::size_t cell = std::size_t(y / CELL * columns_ + x / CELL);
-      sums[cell] += view.colors.col(c).cast<double>();
-      counts[cell] += 1.0;
-      all += view.colors.col(c).cast<double>();
-      count += 1.0;
+        level.push_back(c);
     }
-  cells_.resize(sums.size());
-  for (std::size_t k = 0; k < cells_.size(); ++k) // where little is seen, all of it
-    cells_[k] = shadeOf((sums[k] + all / std::max(count, 1.0)) / (counts[k] + 1.0));
+  if (level.empty())
+    return;
+  // most of it is the table: what is far from the middle of all colours is not
+  Eigen::Vector4f middle;
+  std::vector<float> values(level.size());
+  for (int k = 0; k < 4; ++k) {
+    for (std::size_t i = 0; i < level.size(); ++i)
+      values[i] = shadeOf(view.colors.col(level[i]).cast<double>())[k];
+    const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    middle[k] = *half;
+  }
+  cells_.assign(std::size_t(columns_) * std::size_t(rows_), middle);
+  std::vector<float> counts(cells_.size(), 1.0F); // where little is seen, the middle
+  for (const int c : level) {
+    const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
+    if (hueDistance(shade, middle) > UNEVEN)
+      continue;
+    const auto cell =
+        std::size_t(c / view.width / CELL * columns_ + c % view.width / CELL);
+    cells_[cell] += shade;
+    counts[cell] += 1.0F;
+  }
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    cells_[k] /= counts[k];
 }
 
 Eigen::Vector4f TableColor::near(int x, int y) const {
@@ -119,10 +133,10 @@ void TableColor::growFeet(LabelImage& labels) const {
       const int c = v * w + u;
       const int missing = view_.finite(c) ? 0 : step.missing + 1;
       const bool level =
-          missing > 0 ? missing <= MISSING
-                      : std::abs(view_.table.height(view_.at(c))) <
-                            HIGHEST * standingHeight(view_.table,
-                                                     double(view_.points(2, c)));
+          missing > 0
+              ? missing <= MISSING
+              : std::abs(view_.table.height(view_.at(c))) <
+                    HIGHEST * standingHeight(view_.table, double(view_.points(2, c)));
       const Eigen::Vector4f shade = shadeAt(u, v);
       const float from_table = hueDistance(shade, near(u, v));
       if (!level || from_table < LIKE_TABLE ||

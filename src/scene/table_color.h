@@ -21,8 +21,8 @@ public:
    * and not the table's. */
   void growFeet(LabelImage& labels) const;
 
-  /** \brief Of each label whether its pixels end where the colour does: their outline is
-   * then as sharp as a mask's. */
+  /** \brief Of each label whether its pixels end where the colour does: their outline
+   * is then as sharp as a mask's. */
   [[nodiscard]] std::vector<bool> outlined(const LabelImage& labels) const;
 
 private:
