@@ -45,6 +45,9 @@ void addTaperOption(CLI::App& cli, ModelOptions& options);
 /** \brief Refuses what cannot respect a taper. \throw UsageError */
 void checkTaper(const ModelOptions& options);
 
+/** \brief Whether a cloud shows its object from all round or from one side. */
+void addCoverageOptions(CLI::App& cli, ModelOptions& options);
+
 /** \brief Options of the best mode: preset, view, number of parts. */
 void addViewOptions(CLI::App& cli, ModelOptions& options);
 
