@@ -30,10 +30,13 @@ CameraIntrinsics givenCamera(const FrontOptions& o) {
 }
 
 StereoResult loadDepth(const FrontOptions& o, std::vector<std::string>& notes) {
-  const cv::Mat color =
-      o.left.empty() ? cv::Mat() : readImage(o.left, cv::IMREAD_COLOR);
+  cv::Mat color = o.left_image;
+  if (color.empty() && !o.left.empty())
+    color = readImage(o.left, cv::IMREAD_COLOR);
   double scale = o.depth_scale;
-  const cv::Mat depth = readDepth(o.depth, scale, notes);
+  const cv::Mat depth = o.depth_image.empty()
+                            ? readDepth(o.depth, scale, notes)
+                            : checkedDepth(o.depth_image, o.depth, scale, notes);
   return reprojectDepth(depth, scale, givenCamera(o), color);
 }
 
@@ -53,7 +56,12 @@ StereoCalibration calibrationFor(const FrontOptions& o, const cv::Mat& image) {
 StereoResult matchPair(const FrontOptions& o, FrontResult& r, StageTimer& timer) {
   cv::Mat left, right;
   timer.run("load", [&] {
-    readPair(o.left, o.right, left, right, r.notes);
+    left = o.left_image;
+    right = o.right_image;
+    if (left.empty())
+      readPair(o.left, o.right, left, right, r.notes);
+    else
+      suitMatcher(o.left, o.right, left, right, r.notes);
     return true;
   });
   StereoReprojector reprojector(calibrationFor(o, left));
