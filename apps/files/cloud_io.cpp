@@ -17,16 +17,20 @@ Shape loadShape(const std::string& path) {
   }
 }
 
-LoadedCloud loadCloud(const std::string& path, const CloudOptions& options) {
+LoadedCloud readCloud(const std::string& path, const CloudOptions& options) {
   Shape shape = loadShape(path);
   try {
-    LoadedCloud loaded = makeCloud(std::move(shape), options);
-    for (const std::string& sentence : loaded.notes)
-      note(sentence);
-    return loaded;
+    return makeCloud(std::move(shape), options);
   } catch (const Failure& failure) {
     throw Failure("cannot read '" + printable(path) + "': " + failure.what() + ".");
   }
+}
+
+LoadedCloud loadCloud(const std::string& path, const CloudOptions& options) {
+  LoadedCloud loaded = readCloud(path, options);
+  for (const std::string& sentence : loaded.notes)
+    note(sentence);
+  return loaded;
 }
 
 } // namespace pcl_sq::app

@@ -79,7 +79,7 @@ Segment
 findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
-    const cv::Mat mask = readMask(o.mask);
+    const cv::Mat mask = o.mask_image.empty() ? readMask(o.mask) : o.mask_image;
     if (mask.cols != static_cast<int>(s.cloud->width) ||
         mask.rows != static_cast<int>(s.cloud->height))
       throw Failure("the mask and the image differ in size; give a mask of " +

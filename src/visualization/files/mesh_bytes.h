@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pcl_sq/triangle_mesh.h"
-#include "pcl_sq/visualization/palette.h"
+#include "pcl_sq/palette.h"
 
 #include <string>
 #include <vector>
