@@ -32,6 +32,7 @@ const char* const EXAMPLES =
     "  pcl_sq_fit can.ply --decomposition none\n"
     "  pcl_sq_fit cup.ply --decomposition none --taper --mesh cup.stl\n"
     "  pcl_sq_fit scene.pcd --mask mask.png --grasps 20 --gripper wsg_50 -o cup.json\n"
+    "  pcl_sq_fit cup.pcd --export cup.urdf --export cup.glb --html cup.html\n"
     "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n"
     "  pcl_sq_fit objects/*.pcd --jsonl --shard 1/2 --resume -o models_1.jsonl\n";
 
@@ -102,7 +103,7 @@ bool fitLine(const std::string& path,
   app::ModelLine made = app::makeModelLine(path, options);
   line = std::move(made.line);
   for (const std::string& sentence : made.notes)
-    app::note(sentence);
+    app::note(sentence, path);
   if (made.failure.empty())
     return true;
   std::cerr << "pcl_sq_fit: " + app::printable(path + ": " + made.failure) + "\n";
@@ -171,15 +172,15 @@ int checkedFit(Arguments& arguments) {
   if (!arguments.jsonl && (!arguments.shard.empty() || arguments.resume))
     throw app::UsageError("--shard and --resume are for many clouds: add --jsonl.");
   const bool single_outputs = !options.mesh.empty() || !options.grasp_points.empty() ||
-                              !options.snapshot.empty();
+                              !options.snapshot.empty() || options.exported.any();
   if (arguments.clouds.size() > 1 && !arguments.jsonl)
     throw app::UsageError("several clouds need --jsonl, one JSON line for each.");
   if (!arguments.shard.empty())
     arguments.clouds = app::shardOf(arguments.clouds, arguments.shard);
   if (arguments.jsonl && (single_outputs || arguments.grasps > 0))
     throw app::UsageError(
-        "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps and --snapshot "
-        "are for one cloud.");
+        "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps, --snapshot, "
+        "--export and --html are for one cloud.");
   if (arguments.resume && (options.output.empty() || options.output == "-"))
     throw app::UsageError("--resume goes on with a file: name it with -o.");
   if (arguments.grasps > 0)
@@ -221,12 +222,14 @@ int main(int argc, char** argv) {
                        "Share I of N of the clouds, with --jsonl: every Nth from the "
                        "Ith, for so many processes or machines")
             ->type_name("I/N");
-        cli.add_flag("--resume",
-                     arguments.resume,
-                     "Go on with the -o of a run of --jsonl that was ended: clouds that "
-                     "have a line there are not done again");
+        cli.add_flag(
+            "--resume",
+            arguments.resume,
+            "Go on with the -o of a run of --jsonl that was ended: clouds that "
+            "have a line there are not done again");
         app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
+        app::addCoverageOptions(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")

@@ -143,6 +143,18 @@ const std::vector<OptionRule>& optionRules() {
        {"--intrinsics"},
        [](const Line& l) { return decompositionOf(l) == "parts"; },
        "it goes with --preset best"},
+      {{"pcl_sq_fit"},
+       {"--complete"},
+       [](const Line& l) {
+         return !isAny(
+             l, {"--one-sided", "--viewpoint", "--mask", "--roi", "--intrinsics"});
+       },
+       "a cloud from all round has no camera: leave out --one-sided, --viewpoint, "
+       "--mask, --roi and --intrinsics"},
+      {{"pcl_sq_fit"},
+       {"--complete", "--one-sided"},
+       [](const Line& l) { return decompositionOf(l) == "parts"; },
+       "it goes with --preset best"},
       {{"pcl_sq_stereo"},
        {"--click"},
        [](const Line& l) { return !l.given("--roi"); },

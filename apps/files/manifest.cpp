@@ -53,8 +53,8 @@ DoneLines readDoneLines(const std::string& path) {
   for (std::string line; std::getline(stream, line);) {
     ++number;
     const auto json = nlohmann::json::parse(line, nullptr, false);
-    const auto input = json.is_object() ? json.value("input", nlohmann::json())
-                                        : nlohmann::json();
+    const auto input =
+        json.is_object() ? json.value("input", nlohmann::json()) : nlohmann::json();
     if (!input.is_object() || !input.contains("path") || !input["path"].is_string())
       throw Failure("line " + std::to_string(number) + " of '" + printable(path) +
                     "' is none of --jsonl, so --resume does not go on with it; give "

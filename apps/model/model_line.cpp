@@ -16,9 +16,9 @@ ModelLine makeModelLine(const std::string& path, const ModelOptions& options) {
     StageTimer timer(timings, {});
     const LoadedCloud input =
         timer.run("load", [&] { return readCloud(path, options.cloud); });
-    result.notes = input.notes;
-    result.line =
-        toJson(makeModel(input, path, options, timings.back().second).file, -1);
+    const ModelResult made = makeModel(input, path, options, timings.back().second);
+    result.notes = made.report.notes;
+    result.line = toJson(made.file, -1);
   } catch (const std::exception& error) {
     result.failure = sentenceOf(error);
     const nlohmann::ordered_json line = {{"input", {{"path", path}}},

@@ -11,8 +11,8 @@ namespace pcl_sq::app {
  * "input" and the "error". */
 struct ModelLine {
   std::string line;
-  std::string failure; ///< a sentence, or "" where there is a model
-  std::vector<std::string> notes; ///< of the reader, without their full stop
+  std::string failure;            ///< a sentence, or "" where there is a model
+  std::vector<std::string> notes; ///< of the report: fall-backs
 };
 
 /** \brief Reads a cloud and makes its line; never throws for what the file holds. */

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "files/cloud_io.h"
+#include "model/export_output.h"
 #include "options/frame_options.h"
 
 #include "pcl_sq/fit_tapered.h"
@@ -34,6 +35,7 @@ struct ModelOptions {
   std::string mesh;
   std::string grasp_points;
   std::string snapshot;
+  ExportOptions exported;
 };
 
 /** \brief Adds the options to a program. */
@@ -44,6 +46,9 @@ void addTaperOption(CLI::App& cli, ModelOptions& options);
 
 /** \brief Refuses what cannot respect a taper. \throw UsageError */
 void checkTaper(const ModelOptions& options);
+
+/** \brief Whether a cloud shows its object from all round or from one side. */
+void addCoverageOptions(CLI::App& cli, ModelOptions& options);
 
 /** \brief Options of the best mode: preset, view, number of parts. */
 void addViewOptions(CLI::App& cli, ModelOptions& options);

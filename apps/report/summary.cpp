@@ -93,9 +93,9 @@ void printSummary(const ModelResult& result) {
   std::printf("\n");
 }
 
-void printNotes(const ModelResult& result) {
+void printNotes(const ModelResult& result, const std::string& cloud) {
   for (const std::string& sentence : result.report.notes)
-    note(sentence);
+    note(sentence, cloud);
 }
 
 std::string wordsFor(const std::string& stage) {

@@ -12,7 +12,7 @@ namespace pcl_sq {
 /** \brief Settings of the export to robots' formats. */
 struct PCL_SQ_EXPORTS RobotExportOptions {
   std::string name = "object"; ///< of the object; letters, digits, _ and -
-  double density = 500.0; ///< [kg/m^3], a filled household container; [1, 30000]
+  double density = 500.0;      ///< [kg/m^3], a filled household container; [1, 30000]
   /** \brief How far a box, cylinder or sphere may stand off a part that it collides in
    * place of, in half diagonals of the part's box, [0, 1]. */
   double primitive_tolerance = 0.05;

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
+import webbrowser
+from html import escape
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -11,7 +14,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._options import in_python_words, words_of
-from ._types import Array, Grasp, Mesh
+from ._types import Array, Error, Grasp, Mesh, OptionError
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -27,6 +30,7 @@ class Model:
         self.colors = colors  #: their colours, or None
         self.object_indices = object_indices  #: rows of the points that are the object
         self.grasps: List[Grasp] = []  #: of the last plan_grasps()
+        self._plan: Optional[Dict[str, Any]] = None
 
     @classmethod
     def load(cls, path: PathLike) -> "Model":
@@ -150,7 +154,6 @@ class Model:
                title: str = "") -> npt.NDArray[np.uint8]:
         """A picture, height x width x 3 bytes, also without a display. view: front, side,
         top, iso or camera."""
-        from ._types import Error
         try:
             from . import _render
         except ImportError as error:
@@ -164,6 +167,33 @@ class Model:
         except RuntimeError as error:
             raise Error(str(error)) from None
 
+    def to_html(self, title: str = "pcl_sq") -> str:
+        """A page to turn in a browser, with the cloud and the grasps that were planned."""
+        file = _core.ModelFile.from_json(self.to_json(-1))
+        if self.grasps and self._plan is not None:
+            file.extra_json = json.dumps(dict(self.extra, gripper=self._plan["gripper"],
+                                              grasps=self._plan["grasps"]))
+        return _core.html(file, self.cloud, self.colors, title)
+
+    def show(self, title: str = "pcl_sq", height: int = 500) -> "View":
+        """The page in a notebook; view.save("view.html") and view.open() elsewhere."""
+        return View(self.to_html(title), height)
+
+    def export(self, path: PathLike, *, density: float = 500.0, mesh_prefix: str = "") -> None:
+        """Writes .urdf, .sdf, MoveIt's .scene or .glb; URDF and SDF with their meshes beside
+        them, named mesh_prefix + name. density: of a body without hollows [kg/m^3]."""
+        folder, base = os.path.split(os.fspath(path))
+        stem, ending = os.path.splitext(base)
+        name = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in stem)
+        if ending.lower() not in (".urdf", ".sdf", ".scene", ".glb"):
+            raise OptionError("export writes .urdf, .sdf, .scene or .glb, not '%s'." % ending)
+        files = _core.robot_export(self._file, ending.lower(), name or "object", density,
+                                   mesh_prefix)
+        if not files:
+            raise Error("the model has no parts, so '%s' is not written." % os.fspath(path))
+        for number, (file, contents) in enumerate(files):
+            _core.write_file(os.path.join(folder, base if number == 0 else file), contents)
+
     def __repr__(self) -> str:
         sure = "" if self.confidence is None else ", confidence %.0f %%" % (
             100.0 * self.confidence)
@@ -172,6 +202,29 @@ class Model:
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return (_unpickled, (self.to_json(-1), self.cloud, self.colors, self.object_indices))
+
+
+class View:
+    """A model to turn: shown by a notebook, saved, or opened in the browser."""
+
+    def __init__(self, html: str, height: int) -> None:
+        self.html = html
+        self.height = height
+
+    def _repr_html_(self) -> str:
+        return ('<iframe srcdoc="%s" width="100%%" height="%d" style="border:0"></iframe>'
+                % (escape(self.html, quote=True), self.height))
+
+    def save(self, path: PathLike) -> None:
+        """Writes the page, whole or not at all."""
+        _core.write_file(os.fspath(path), self.html.encode())
+
+    def open(self) -> None:
+        """Shows the page in the browser."""
+        with tempfile.NamedTemporaryFile("w", suffix=".html", delete=False,
+                                         encoding="utf-8") as file:
+            file.write(self.html)
+        webbrowser.open("file://" + file.name)
 
 
 def _unpickled(text: str, cloud: Any, colors: Any, indices: Any) -> Model:

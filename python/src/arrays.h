@@ -35,10 +35,7 @@ public:
   auto visit(const Function& f) const {
     if (single_)
       return f(CloudPoints(Eigen::Map<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>>(
-          static_cast<const float*>(data_),
-          3,
-          count_,
-          Eigen::OuterStride<>(stride_))));
+          static_cast<const float*>(data_), 3, count_, Eigen::OuterStride<>(stride_))));
     return f(Eigen::Ref<const Eigen::Matrix3Xd>(
         Eigen::Map<const Eigen::Matrix3Xd, 0, Eigen::OuterStride<>>(
             static_cast<const double*>(data_),

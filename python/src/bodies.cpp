@@ -67,9 +67,8 @@ py::array_t<double> eachVector(const py::array& array, const Function& f) {
   const py::gil_scoped_release unlocked;
   const Eigen::Matrix3Xd columns = points.columns();
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    out.col(i) = columns.col(i).allFinite()
-                     ? f(Eigen::Vector3d(columns.col(i)))
-                     : Eigen::Vector3d::Constant(std::nan(""));
+    out.col(i) = columns.col(i).allFinite() ? f(Eigen::Vector3d(columns.col(i)))
+                                            : Eigen::Vector3d::Constant(std::nan(""));
   return result;
 }
 
@@ -168,26 +167,29 @@ void addSuperquadric(py::module_& module) {
           [](const S& s) { return py::make_tuple(s.kx, s.ky); },
           "Relative growth of the section from z = 0 to z = a3.")
       .def_readonly("rim", &S::rim, "Height of the rim over a3; 1: not cut.")
-      .def_readonly("wall", &S::wall, "Thickness of a hollow body's wall [m]; 0: solid.")
+      .def_readonly(
+          "wall", &S::wall, "Thickness of a hollow body's wall [m]; 0: solid.")
       .def_property_readonly("sides", &sidesOf, "Sides that a ruler measures [m].")
       .def_property_readonly("volume", &S::volume, "Filled up to the rim [m^3].")
       .def_property_readonly(
           "bounds",
           [](const S& s) { return boundsOf(s.boundingBox()); },
           "Corners of the axis-aligned box [m].")
-      .def("distance",
-           &distanceOf<S>,
-           py::arg("points"),
-           py::kw_only(),
-           py::arg("method") = "exact",
-           "Signed distance of each point to the surface [m], negative inside.\n\n"
-           "'exact' is Euclidean; 'fast' is some fifty times quicker and a few per cent "
-           "larger far from the surface.")
+      .def(
+          "distance",
+          &distanceOf<S>,
+          py::arg("points"),
+          py::kw_only(),
+          py::arg("method") = "exact",
+          "Signed distance of each point to the surface [m], negative inside.\n\n"
+          "'exact' is Euclidean; 'fast' is some fifty times quicker and a few per cent "
+          "larger far from the surface.")
       .def("contains", &containsOf<S>, py::arg("points"), "Whether points lie inside.")
       .def(
           "gauge",
           [](const S& s, const py::array& points) {
-            return eachPoint(points, [&](const Eigen::Vector3d& p) { return s.gauge(p); });
+            return eachPoint(points,
+                             [&](const Eigen::Vector3d& p) { return s.gauge(p); });
           },
           py::arg("points"),
           "F^(e1/2): below 1 inside, 1 on the surface.")
@@ -259,29 +261,34 @@ void addUnion(py::module_& module) {
            py::arg("parts"))
       .def_readonly("parts", &M::parts, "Its superquadrics.")
       .def("__len__", &M::size)
-      .def(
-          "__getitem__",
-          [](const M& m, std::ptrdiff_t i) {
-            const auto n = std::ptrdiff_t(m.size());
-            if (i < -n || i >= n)
-              throw py::index_error("the union has " + std::to_string(n) + " parts");
-            return m.parts[std::size_t(i < 0 ? i + n : i)];
-          })
+      .def("__getitem__",
+           [](const M& m, std::ptrdiff_t i) {
+             const auto n = std::ptrdiff_t(m.size());
+             if (i < -n || i >= n)
+               throw py::index_error("the union has " + std::to_string(n) + " parts");
+             return m.parts[std::size_t(i < 0 ? i + n : i)];
+           })
       .def("distance",
            &distanceOf<M>,
            py::arg("points"),
            py::kw_only(),
            py::arg("method") = "exact",
            "Signed distance of each point to the nearest part [m].")
-      .def("contains", &containsOf<M>, py::arg("points"), "Whether points lie in a part.")
+      .def("contains",
+           &containsOf<M>,
+           py::arg("points"),
+           "Whether points lie in a part.")
       .def(
           "nearest_part",
           [](const M& m, const py::array& points) {
             if (m.empty())
               throw std::invalid_argument("a union without parts has no nearest one");
-            return eachPoint(points, [&](const Eigen::Vector3d& p) {
-                     return double(m.nearestPart(p));
-                   }).attr("__array__")().attr("astype")("int64");
+            return eachPoint(points,
+                             [&](const Eigen::Vector3d& p) {
+                               return double(m.nearestPart(p));
+                             })
+                .attr("__array__")()
+                .attr("astype")("int64");
           },
           py::arg("points"),
           "Index of the part whose surface is nearest.")

@@ -9,6 +9,8 @@
 
 #include "command_line/value_checks.h"
 #include "pcl_sq/file_io.h"
+#include "pcl_sq/html_view.h"
+#include "pcl_sq/robot_export.h"
 
 namespace pcl_sq::python {
 
@@ -71,6 +73,7 @@ py::tuple estimate(const py::array& array,
         [&](CLI::App& cli) {
           app::addCloudOptions(cli, options.cloud);
           app::addModelOptions(cli, options);
+          app::addCoverageOptions(cli, options);
         },
         words);
     if (mask && (options.remove_plane || !options.roi.empty() || !options.box.empty()))
@@ -116,12 +119,53 @@ std::string planGrasps(const ModelFile& file,
     if (input)
       scene.cloud = app::columnsOf(*input);
     double milliseconds = 0.0;
-    const GraspPlan plan =
-        app::planGrasps(file.model, scene, options, milliseconds);
+    const GraspPlan plan = app::planGrasps(file.model, scene, options, milliseconds);
     if (!plan.ok())
       throw app::Failure(plan.failure);
     return app::graspsToJson(plan, scene, options, file.frame, "", milliseconds);
   });
+}
+
+/** \brief The page of a model and its cloud. */
+std::string html(const ModelFile& file,
+                 const std::optional<py::array>& cloud,
+                 const std::optional<py::array>& colors,
+                 const std::string& title) {
+  Eigen::Matrix3Xf points(3, 0);
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  std::vector<std::uint32_t> packed;
+  if (cloud) {
+    const PointArray array(*cloud);
+    const Eigen::Matrix3Xd columns = array.columns();
+    if (!file.model.empty()) // floats keep their digits near the model
+      offset = file.model.parts.front().center.array().round().matrix();
+    points = (columns.colwise() - offset).cast<float>();
+    if (colors)
+      packed = colorsOf(*colors, array.size());
+  }
+  HtmlViewOptions options;
+  options.title = title;
+  const py::gil_scoped_release unlocked;
+  return htmlView(file, points, offset, packed, options);
+}
+
+/** \brief (name, bytes) of each file of a format. */
+std::vector<std::pair<std::string, py::bytes>> robotExport(const ModelFile& file,
+                                                           const std::string& ending,
+                                                           const std::string& name,
+                                                           double density,
+                                                           const std::string& prefix) {
+  RobotExportOptions options;
+  options.name = name;
+  options.density = density;
+  options.mesh_prefix = prefix;
+  std::string why;
+  if (!options.isValid(&why))
+    throw std::invalid_argument(why);
+  std::vector<std::pair<std::string, py::bytes>> files;
+  for (const TextFile& text : robotFiles(ending, file, options))
+    files.emplace_back(text.path, py::bytes(text.contents));
+  return files;
 }
 
 ModelFile fromText(const std::string& text) {
@@ -173,6 +217,8 @@ void addEstimation(py::module_& module) {
       });
   module.def("estimate", &estimate);
   module.def("plan_grasps", &planGrasps);
+  module.def("html", &html);
+  module.def("robot_export", &robotExport);
   module.def("write_file", [](const std::string& path, const std::string& bytes) {
     guarded([&] {
       std::string why;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds from files, by the programs' readers; PCL's reader of compressed PCD brings VTK.
+// Clouds from files, by the programs' readers; PCL's reader of compressed PCD brings
+// VTK.
 #include "arrays.h"
 #include "errors.h"
 #include "files/cloud_io.h"
@@ -45,12 +46,15 @@ py::tuple readCloud(const std::string& path, const Words& words) {
   guarded([&] {
     app::CloudOptions options;
     app::parseWords(
-        "pcl_sq_fit", [&](CLI::App& cli) { app::addCloudOptions(cli, options); }, words);
+        "pcl_sq_fit",
+        [&](CLI::App& cli) { app::addCloudOptions(cli, options); },
+        words);
     cloud = app::readCloud(path, options);
     viewpoint = app::viewpointOf(cloud);
     return true;
   });
-  const auto width = py::ssize_t(cloud.cloud->width), height = py::ssize_t(cloud.cloud->height);
+  const auto width = py::ssize_t(cloud.cloud->width),
+             height = py::ssize_t(cloud.cloud->height);
   const std::vector<py::ssize_t> shape =
       height > 1 ? std::vector<py::ssize_t>{height, width, 3}
                  : std::vector<py::ssize_t>{py::ssize_t(cloud.cloud->size()), 3};
@@ -73,6 +77,7 @@ py::tuple fitLine(const std::string& path, const Words& words) {
         [&](CLI::App& cli) {
           app::addCloudOptions(cli, options.cloud);
           app::addModelOptions(cli, options);
+          app::addCoverageOptions(cli, options);
         },
         words);
     app::checkModelOptions(options);

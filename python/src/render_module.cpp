@@ -62,7 +62,8 @@ py::array_t<std::uint8_t> render(const std::string& model,
   } catch (const Exception& error) {
     const std::string text = error.what();
     const std::size_t place = text.find("] ");
-    throw std::runtime_error(place == std::string::npos ? text : text.substr(place + 2));
+    throw std::runtime_error(place == std::string::npos ? text
+                                                        : text.substr(place + 2));
   }
   const py::ssize_t rows = image.height, columns = image.width;
   return ownedArray(std::move(image.rgb), {rows, columns, 3});

@@ -28,8 +28,8 @@ double standOff(const CollisionShape& shape, const Superquadric& part) {
     if (shape.kind == CollisionShape::BOX)
       places.push_back(sign.cwiseProduct(h));
     else if (shape.kind == CollisionShape::CYLINDER)
-      places.push_back(
-          sign.cwiseProduct(Eigen::Vector3d(diagonal * h.x(), diagonal * h.y(), h.z())));
+      places.push_back(sign.cwiseProduct(
+          Eigen::Vector3d(diagonal * h.x(), diagonal * h.y(), h.z())));
     else {
       places.push_back(third * sign.cwiseProduct(h));
       for (int axis = 0; axis < 3; ++axis) {
@@ -47,15 +47,12 @@ double standOff(const CollisionShape& shape, const Superquadric& part) {
   double largest = 0.0;
   for (const Eigen::Vector3d& p : places)
     largest = std::max(
-        largest,
-        std::abs(part.euclideanDistance(shape.center + shape.rotation * p)));
+        largest, std::abs(part.euclideanDistance(shape.center + shape.rotation * p)));
   return largest;
 }
 
 /** \brief The primitive that stands off least, if it does little. */
-bool findPrimitive(const Superquadric& part,
-                   double tolerance,
-                   CollisionShape& best) {
+bool findPrimitive(const Superquadric& part, double tolerance, CollisionShape& best) {
   if (!part.isPlain())
     return false;
   const OrientedBox box = boxAround(part);
@@ -118,8 +115,8 @@ std::vector<double> wallHeights(const Superquadric& s) {
     bool straight = true;
     for (int i = 0; i < stretches; ++i) {
       const double a = heights[std::size_t(i)], b = heights[std::size_t(i) + 1];
-      straight = straight && radius(0.5 * (a + b)) - 0.5 * (radius(a) + radius(b)) <
-                                 0.5 * s.wall;
+      straight = straight &&
+                 radius(0.5 * (a + b)) - 0.5 * (radius(a) + radius(b)) < 0.5 * s.wall;
     }
     if (straight || stretches >= 8)
       return heights;
@@ -188,8 +185,8 @@ TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points) {
   return mesh;
 }
 
-std::vector<CollisionShape>
-collisionShapes(const Superquadric& part, double tolerance) {
+std::vector<CollisionShape> collisionShapes(const Superquadric& part,
+                                            double tolerance) {
   CollisionShape primitive;
   if (findPrimitive(part, tolerance, primitive))
     return {primitive};

@@ -21,8 +21,7 @@ struct CollisionShape {
 
 /** \brief Shapes whose union is nearly a part.
  * \param[in] tolerance see RobotExportOptions::primitive_tolerance */
-std::vector<CollisionShape>
-collisionShapes(const Superquadric& part, double tolerance);
+std::vector<CollisionShape> collisionShapes(const Superquadric& part, double tolerance);
 
 /** \brief The hull of points as triangles, counter-clockwise seen from outside; empty
  * if they lie in a plane. */

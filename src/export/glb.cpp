@@ -119,9 +119,8 @@ std::vector<TextFile> glbFiles(const ModelFile& file,
     children.push_back(i + 1);
   }
   const Eigen::Vector3d up =
-      file.table
-          ? Eigen::Vector3d((*file.table)[0], (*file.table)[1], (*file.table)[2])
-          : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
+      file.table ? Eigen::Vector3d((*file.table)[0], (*file.table)[1], (*file.table)[2])
+                 : Eigen::Vector3d(-Eigen::Vector3d::UnitY());
   const Eigen::Quaterniond turn = detail::toYUp(up);
   nodes[0] = {{"name", options.name},
               {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},

@@ -189,8 +189,7 @@ std::string htmlView(const ModelFile& file,
   page["parts"] = Json::array();
   for (std::size_t i = 0; i < file.model.size(); ++i)
     page["parts"].push_back(partJson(file.model.parts[i], i, middle));
-  page["cloud"] =
-      cloudJson(points, offset, colors, near, options.max_points, middle);
+  page["cloud"] = cloudJson(points, offset, colors, near, options.max_points, middle);
   page["grasps"] = graspsJson(extra, middle);
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
   if (file.table) {
@@ -205,8 +204,9 @@ std::string htmlView(const ModelFile& file,
       if (found == report->end() || !found->is_array() || found->size() != 3)
         return false;
       for (int k = 0; k < 3; ++k)
-        v[k] = (*found)[std::size_t(k)].is_number() ? (*found)[std::size_t(k)].get<double>()
-                                                    : 0.0;
+        v[k] = (*found)[std::size_t(k)].is_number()
+                   ? (*found)[std::size_t(k)].get<double>()
+                   : 0.0;
       return true;
     };
     Eigen::Vector3d sensor;

@@ -43,9 +43,8 @@ std::string tableText(const std::array<double, 4>& table,
   CollisionShape board;
   board.kind = CollisionShape::BOX;
   board.half_sizes = 0.5 * Eigen::Vector3d(SIDE, SIDE, THICKNESS);
-  board.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)
-          .toRotationMatrix();
+  board.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)
+                       .toRotationMatrix();
   return "* " + name + "\n" +
          poseText(foot - 0.5 * THICKNESS * normal, board.rotation) + "1\n" +
          shapeText(board) +

@@ -54,8 +54,7 @@ bool robotObject(const ModelFile& file,
   object.mass = options.density * mass.volume;
   object.inertia = options.density * mass.inertia;
   for (const Superquadric& part : file.model.parts)
-    for (CollisionShape& shape :
-         collisionShapes(part, options.primitive_tolerance))
+    for (CollisionShape& shape : collisionShapes(part, options.primitive_tolerance))
       object.shapes.push_back(std::move(shape));
   MultiSuperquadric centred = file.model;
   for (Superquadric& part : centred.parts)

@@ -30,6 +30,6 @@ std::string meshName(const RobotExportOptions& options, std::size_t number);
 /** \brief Collects it. \return false for an empty model or options out of range */
 [[nodiscard]] bool robotObject(const ModelFile& file,
                                const RobotExportOptions& options,
-                                           RobotObject& object);
+                               RobotObject& object);
 
 } // namespace pcl_sq::detail

@@ -61,18 +61,17 @@ std::vector<TextFile> urdfFiles(const ModelFile& file,
   // a link and a joint may not have the same name as the root
   const std::string root =
       object.frame == options.name ? object.frame + "_frame" : object.frame;
-  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + options.name +
-                     "\">\n  <link name=\"" + escaped(root) + "\"/>\n  <joint name=\"" +
-                     options.name + "_pose\" type=\"fixed\">\n    <parent link=\"" +
-                     escaped(root) + "\"/>\n    <child link=\"" + options.name +
-                     "\"/>\n    " +
-                     urdfOrigin(object.origin, Eigen::Matrix3d::Identity()) +
-                     "\n  </joint>\n  <link name=\"" + options.name +
-                     "\">\n    <inertial>\n      <mass value=\"" + number(object.mass) +
-                     "\"/>\n      <inertia ixx=\"" + number(i(0, 0)) + "\" ixy=\"" +
-                     number(i(0, 1)) + "\" ixz=\"" + number(i(0, 2)) + "\" iyy=\"" +
-                     number(i(1, 1)) + "\" iyz=\"" + number(i(1, 2)) + "\" izz=\"" +
-                     number(i(2, 2)) + "\"/>\n    </inertial>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<robot name=\"" + options.name +
+      "\">\n  <link name=\"" + escaped(root) + "\"/>\n  <joint name=\"" + options.name +
+      "_pose\" type=\"fixed\">\n    <parent link=\"" + escaped(root) +
+      "\"/>\n    <child link=\"" + options.name + "\"/>\n    " +
+      urdfOrigin(object.origin, Eigen::Matrix3d::Identity()) +
+      "\n  </joint>\n  <link name=\"" + options.name +
+      "\">\n    <inertial>\n      <mass value=\"" + number(object.mass) +
+      "\"/>\n      <inertia ixx=\"" + number(i(0, 0)) + "\" ixy=\"" + number(i(0, 1)) +
+      "\" ixz=\"" + number(i(0, 2)) + "\" iyy=\"" + number(i(1, 1)) + "\" iyz=\"" +
+      number(i(1, 2)) + "\" izz=\"" + number(i(2, 2)) + "\"/>\n    </inertial>\n";
   text += "    <visual>\n      <geometry><mesh filename=\"" +
           escaped(options.mesh_prefix + detail::meshName(options, 0)) +
           "\"/></geometry>\n    </visual>\n";

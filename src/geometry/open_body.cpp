@@ -12,36 +12,6 @@ namespace detail {
 
 namespace {
 
-constexpr int STEPS = 40;         ///< of a meridian's curve
-constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
-constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
-
-/** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
-double latitudeOf(const Superquadric& s, double height) {
-  const double sine = std::pow(std::min(std::abs(height), 1.0), 1.0 / s.epsilon1);
-  return std::copysign(std::asin(sine), height);
-}
-
-double toSegment(const Eigen::Vector2d& p,
-                 const Eigen::Vector2d& a,
-                 const Eigen::Vector2d& b) {
-  const Eigen::Vector2d side = b - a;
-  const double length = std::max(side.squaredNorm(), 1e-300);
-  const double t = std::clamp((p - a).dot(side) / length, 0.0, 1.0);
-  return (p - a - t * side).norm();
-}
-
-bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
-      inside = !inside;
-  }
-  return inside;
-}
-
 /** \brief Integrals between two heights over a3 of the body shrunk by an inset: Gauss's
  * rule between heights of equal steps of the latitude, which are dense at the poles,
  * where the section's size is steep. */
@@ -94,6 +64,11 @@ momentsBetween(const Superquadric& s, double low, double high, double inset) {
 
 } // namespace
 
+double latitudeOf(const Superquadric& s, double height) {
+  const double sine = std::pow(std::min(std::abs(height), 1.0), 1.0 / s.epsilon1);
+  return std::copysign(std::asin(sine), height);
+}
+
 Section sectionAt(const Superquadric& s, double height, double inset) {
   const double h = std::min(std::abs(height), 1.0);
   const double scale = std::pow(1.0 - std::pow(h, 2.0 / s.epsilon1), 0.5 * s.epsilon1);
@@ -113,124 +88,6 @@ bool contains(const Section& c, double epsilon2, double x, double y) {
          larger * std::pow(1.0 + std::pow(smaller / larger, 2.0 / epsilon2),
                            0.5 * epsilon2) <=
              1.0;
-}
-
-Meridian::Meridian(const Superquadric& s, const Eigen::Vector2d& direction)
-    : s_(s), direction_(direction.norm() > 0.0 ? direction.normalized()
-                                               : Eigen::Vector2d::UnitX()) {
-  const double rim = s.rimHeight();
-  addCurve(0.0, -1.0, rim);
-  if (s.isHollow())
-    addCurve(s.wall, floorHeight(s), rim);
-  for (const Eigen::Vector2d& p : curves_[0].points)
-    polygon_.push_back(p);
-  if (s.isHollow())
-    polygon_.insert(
-        polygon_.end(), curves_[1].points.rbegin(), curves_[1].points.rend());
-  polygon_.emplace_back(0.0, polygon_.back().y());
-}
-
-Eigen::Vector2d Meridian::at(double s, double inset) const {
-  const double larger = std::max(std::abs(s), 1.0 - std::abs(s));
-  const double ratio = std::min(std::abs(s), 1.0 - std::abs(s)) / larger;
-  const double norm =
-      larger * std::pow(1.0 + std::pow(ratio, 2.0 / s_.epsilon1), 0.5 * s_.epsilon1);
-  const double height = s / norm, scale = (1.0 - std::abs(s)) / norm;
-  const double a = s_.semi_axes.x() * (1.0 + s_.kx * height) * scale - inset;
-  const double b = s_.semi_axes.y() * (1.0 + s_.ky * height) * scale - inset;
-  if (!(a > 0.0 && b > 0.0))
-    return {0.0, height * s_.semi_axes.z()};
-  if (s_.epsilon2 == 1.0 && a == b)
-    return {a, height * s_.semi_axes.z()};
-  const double u = std::abs(direction_.x()) / a, v = std::abs(direction_.y()) / b;
-  const double most = std::max(u, v), least = std::min(u, v);
-  const double reach = most * std::pow(1.0 + std::pow(least / most, 2.0 / s_.epsilon2),
-                                       0.5 * s_.epsilon2);
-  return {1.0 / reach, height * s_.semi_axes.z()};
-}
-
-void Meridian::addCurve(double inset, double low, double high) {
-  Curve c;
-  c.inset = inset;
-  const double begin = latitudeOf(s_, low), end = latitudeOf(s_, high);
-  for (int i = 0; i <= STEPS; ++i) {
-    const double eta = begin + (end - begin) * i / STEPS;
-    const double height = std::pow(std::abs(std::sin(eta)), s_.epsilon1);
-    const double scale = std::pow(std::max(std::cos(eta), 0.0), s_.epsilon1);
-    const bool pole = low == -1.0 && i == 0; // where a cosine is not quite zero
-    c.places.push_back(pole ? -1.0 : std::copysign(height / (height + scale), eta));
-    c.points.push_back(at(c.places.back(), inset));
-  }
-  for (std::size_t i = 0; i < STEPS; ++i) {
-    double miss = 0.0;
-    for (const double share : {0.1, 0.5, 0.9})
-      miss = std::max(
-          miss,
-          toSegment(at((1.0 - share) * c.places[i] + share * c.places[i + 1], inset),
-                    c.points[i],
-                    c.points[i + 1]));
-    c.straight.push_back(miss < STRAIGHT * s_.semi_axes.maxCoeff());
-  }
-  curves_.push_back(std::move(c));
-}
-
-double Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p) const {
-  double nearest = 1e300;
-  std::size_t chord = 0;
-  for (std::size_t i = 0; i < STEPS; ++i) {
-    const double d = toSegment(p, c.points[i], c.points[i + 1]);
-    if (d < nearest) {
-      nearest = d;
-      chord = i;
-    }
-  }
-  if (c.straight[chord])
-    return nearest;
-  constexpr double GOLDEN = 0.6180339887498949;
-  const auto square = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
-  double low = c.places[chord], high = c.places[chord + 1];
-  if (chord > 0) // the curve's foot may lie beside the chord's
-    low = 0.5 * (low + c.places[chord - 1]);
-  if (chord + 2 < c.places.size())
-    high = 0.5 * (high + c.places[chord + 2]);
-  double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
-  double at_left = square(left), at_right = square(right);
-  for (int i = 0; i < REFINEMENTS; ++i)
-    if (at_left < at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      at_left = square(left = high - GOLDEN * (high - low));
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      at_right = square(right = low + GOLDEN * (high - low));
-    }
-  return std::sqrt(std::min({at_left,
-                             at_right,
-                             (p - c.points[chord]).squaredNorm(),
-                             (p - c.points[chord + 1]).squaredNorm()}));
-}
-
-double Meridian::distance(double rho, double z) const {
-  const Eigen::Vector2d p(rho, z);
-  double nearest = 1e300;
-  for (const Curve& c : curves_)
-    nearest = std::min(nearest, distanceTo(c, p));
-  const Eigen::Vector2d edge = curves_[0].points.back();
-  const Eigen::Vector2d inner =
-      s_.isHollow() ? curves_[1].points.back() : Eigen::Vector2d(0.0, edge.y());
-  nearest = std::min(nearest, toSegment(p, inner, edge));
-  if (s_.isHollow()) {
-    const Eigen::Vector2d corner = curves_[1].points.front();
-    nearest = std::min(nearest, toSegment(p, {0.0, corner.y()}, corner));
-  }
-  return inPolygon(polygon_, p) ? -nearest : nearest;
-}
-
-double meridianDistance(const Superquadric& s, const Eigen::Vector3d& local) {
-  return Meridian(s, local.head<2>()).distance(local.head<2>().norm(), local.z());
 }
 
 std::vector<std::vector<Ring>> ringsOf(const Superquadric& s, int steps) {
@@ -269,24 +126,6 @@ Eigen::Vector3d onRing(const Ring& ring, double epsilon2, double angle) {
       larger *
       std::pow(1.0 + std::pow(smaller / larger, 2.0 / epsilon2), 0.5 * epsilon2);
   return {ring.section.a * x / norm, ring.section.b * y / norm, ring.z};
-}
-
-void openResiduals(const Superquadric& s,
-                   const UnitPoints& points,
-                   kernels::Residual residual,
-                   float* out) {
-  const Meridian all_round(s, Eigen::Vector2d::UnitX());
-  const double size = std::cbrt(s.semi_axes.prod());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d local = s.toLocal(points[i].cast<double>());
-    double r = isRound(s) ? all_round.distance(local.head<2>().norm(), local.z())
-                          : meridianDistance(s, local);
-    if (residual == kernels::Residual::GAUGE)
-      r /= size;
-    else if (residual == kernels::Residual::SOLINA)
-      r = std::pow(1.0 + r / size, 2) - 1.0;
-    out[i] = static_cast<float>(r);
-  }
 }
 
 AxialMoments filledMoments(const Superquadric& s) {

@@ -18,6 +18,9 @@ struct Section {
 /** \brief The body's section at a height over a3, shrunk by \a inset on its sides. */
 Section sectionAt(const Superquadric& s, double height, double inset = 0.0);
 
+/** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
+double latitudeOf(const Superquadric& s, double height);
+
 /** \brief Height of the hollow's floor over a3. */
 inline double floorHeight(const Superquadric& s) {
   return s.wall / s.semi_axes.z() - 1.0;

@@ -3,6 +3,8 @@
 #include "sensor/camera_pose.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace pcl_sq {
 
@@ -126,6 +128,34 @@ bool findImage(const CloudPoints& points,
   return true;
 }
 
+/** \brief Tells of a viewpoint that is not where an image of points was taken from, by
+ * a tenth of the distance to its middle or more: nearer, it is an estimate of the same.
+ */
+void noteOtherViewpoint(const CloudPoints& points,
+                        const PinholeCamera& camera,
+                        const ViewOptions& view,
+                        std::vector<std::string>& notes) {
+  constexpr double SAME = 0.1;
+  if (!view.viewpoint)
+    return;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite()) {
+      sum += points.col(i).cast<double>();
+      ++count;
+    }
+  const double distance = (sum / std::max(1, count) - camera.center).norm();
+  if ((*view.viewpoint - camera.center).norm() < SAME * distance)
+    return;
+  std::ostringstream sentence;
+  sentence
+      << std::fixed << std::setprecision(3) << "the cloud is an image taken from ("
+      << camera.center.x() << ", " << camera.center.y() << ", " << camera.center.z()
+      << ") m, which is not the viewpoint that was given; that of the image counts";
+  notes.push_back(sentence.str());
+}
+
 } // namespace
 
 bool observeObject(const CloudPoints& points,
@@ -153,12 +183,13 @@ bool observeObject(const CloudPoints& points,
                 std::to_string(width) + " x " + std::to_string(height) +
                 "; give the mask of the same image");
   PinholeCamera camera;
-  if (!organized || !findImage(points, width, height, view, camera)) {
+  const bool complete = view.coverage == Coverage::COMPLETE;
+  if (!organized || complete || !findImage(points, width, height, view, camera)) {
     if (organized && has_mask)
       return fail(
           "the cloud is no pinhole image, so that its mask cannot be used; give "
           "the intrinsics or leave out the mask");
-    if (organized)
+    if (organized && !complete)
       observed.notes.push_back(
           "the cloud is no image of a camera, although it has rows, so its outline is "
           "not used; give the camera's intrinsics if it is one");
@@ -166,6 +197,7 @@ bool observeObject(const CloudPoints& points,
     return observeBare(o, reason) || fail(reason);
   }
   observed.viewpoint_known = true;
+  noteOtherViewpoint(points, camera, view, observed.notes);
   const CameraPose pose(camera);
   observed.camera = camera;
   if (pose.isIdentity()) {

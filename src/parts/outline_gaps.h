@@ -2,7 +2,7 @@
 // Private. Gaps in an object through which the background is seen: the handle of a cup.
 #pragma once
 
-#include "parts/object_piece.h"
+#include "pieces/piece.h"
 
 namespace pcl_sq::detail {
 

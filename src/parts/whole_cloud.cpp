@@ -2,7 +2,7 @@
 #include "parts/whole_cloud.h"
 
 #include "util/parallel_for.h"
-#include "view_fit/plane_cost.h"
+#include "view_problem/plane_cost.h"
 
 #include <algorithm>
 #include <cmath>

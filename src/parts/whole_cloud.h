@@ -3,7 +3,7 @@
 // points are and where there are none tell more than each part's own points do.
 #pragma once
 
-#include "parts/object_piece.h"
+#include "pieces/piece.h"
 
 namespace pcl_sq::detail {
 

@@ -61,9 +61,8 @@ bool convexHull(const Eigen::MatrixXd& points,
       if (corners) {
         corners->emplace_back();
         vertexT *vertex, **vertexp;
-        FOREACHvertex_(facet->vertices)
-            corners->back()
-                .push_back(qh_pointid(qh, vertex->point));
+        FOREACHvertex_(facet->vertices) corners->back().push_back(
+            qh_pointid(qh, vertex->point));
       }
     }
     if (volume) {

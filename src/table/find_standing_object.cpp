@@ -2,6 +2,7 @@
 #include "table/depth_regions.h"
 #include "table/table_search.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq {
@@ -10,8 +11,11 @@ namespace {
 
 constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked for
 
-/** \brief Pixels that lie above a table, among all or some. */
+/** \brief Pixels that lie above a table, among all or some.
+ * \param[in] depth where the table's noise was measured: what is farther errs more, by
+ * the square of its depth as triangulation does */
 CellMask pixelsAbove(const TableModel& table,
+                     double depth,
                      const CloudPoints& points,
                      int width,
                      int height,
@@ -19,8 +23,11 @@ CellMask pixelsAbove(const TableModel& table,
   CellMask above(width, height);
   const auto look = [&](std::size_t i) {
     const Eigen::Vector3f p = points.col(Eigen::Index(i));
+    const double farther = std::max(1.0, double(p.z()) / depth);
+    TableModel there = table;
+    there.noise *= farther * farther;
     const auto standing =
-        static_cast<float>(detail::standingHeight(table, double(p.z())));
+        static_cast<float>(detail::standingHeight(there, double(p.z())));
     above.cells[i] = table.normal.cast<float>().dot(p) + float(table.offset) > standing;
   };
   if (within)
@@ -61,15 +68,17 @@ Standing findInImage(const CloudPoints& points,
                      bool loose) {
   TableSearch search;
   const auto total = static_cast<std::size_t>(points.cols());
-  double depth = 0.0;
+  std::vector<double> depths;
   for (std::size_t i = 0; i < total; i += evenStep(total, width, VOTERS))
     if (points.col(Eigen::Index(i)).allFinite()) {
       search.voters.push_back(points.col(Eigen::Index(i)).cast<double>());
-      depth += search.voters.back().z();
+      depths.push_back(std::abs(search.voters.back().z()));
     }
   if (search.voters.size() < 100)
     return {};
-  depth = std::abs(depth) / double(search.voters.size());
+  const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const double depth = *middle;
   search.points_a_voter = double(evenStep(total, width, VOTERS));
   search.distance = 0.008 * depth;
   search.viewpoint = Eigen::Vector3d::Zero();
@@ -91,7 +100,7 @@ Standing findInImage(const CloudPoints& points,
     Standing found;
     found.table = table;
     const CellMask above =
-        pixelsAbove(table, points, width, height, region ? &inside : within);
+        pixelsAbove(table, depth, points, width, height, region ? &inside : within);
     if (region)
       found.thing = thingOfBox(points, above, box, size);
     if (!region || (loose && found.thing.empty())) {

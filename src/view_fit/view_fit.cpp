@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/view_fit.h"
 
+#include "families/families.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "union/surface_statistics.h"
 #include "util/option_check.h"
 #include "util/parallel_for.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The families of superquadrics (M15) and their fits from a general one.
+#include "families/families.h"
 #include "util/parallel_for.h"
-#include "view_fit/shape_spaces.h"
-#include "view_fit/view_problem.h"
+#include "view_fit/search_view.h"
+#include "view_problem/shape_spaces.h"
 
 #include <array>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // M22: a handle is what stands off a vessel.
-#include "parts/body_outline.h"
-#include "parts/object_piece.h"
 #include "pcl_sq/fit_superquadric.h"
+#include "pieces/body_outline.h"
+#include "pieces/piece.h"
 #include "sensor/local_quadric.h"
 
 #include <algorithm>

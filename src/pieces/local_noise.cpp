@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/object_piece.h"
+#include "pieces/piece.h"
 #include "sensor/local_quadric.h"
 
 #include <Eigen/Eigenvalues>

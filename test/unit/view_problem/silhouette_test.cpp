@@ -3,8 +3,8 @@
 
 #include "pcl_sq/triangle_mesh.h"
 #include "solver/levenberg_marquardt.h"
-#include "view_fit/plane_cost.h"
-#include "view_fit/plane_sums.h"
+#include "view_problem/plane_cost.h"
+#include "view_problem/plane_sums.h"
 #include "view_scene.h"
 
 #include <gtest/gtest.h>

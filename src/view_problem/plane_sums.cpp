@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_fit/plane_sums.h"
+#include "view_problem/plane_sums.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pcl_sq/view_fit.h"
-#include "view_fit/plane_cost.h"
+#include "view_problem/plane_cost.h"
 
 namespace pcl_sq::detail {
 
@@ -72,44 +72,7 @@ private:
   double max_axis_ = 20.0;
 };
 
-/** \brief fitView() without the points' distances in its summary: most fits are
- * only compared. */
-ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
-                   const ViewEvidence& evidence,
-                   const ViewFitOptions& options);
-
-/** \brief The points' distances of a fit's model. */
-void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit);
-
 /** \brief Starts of the search. */
 std::vector<Superquadric> viewStarts(const ViewProblem& problem);
-
-/** \brief All families from the best general fit. */
-std::vector<ShapeCandidate> fitShapes(const ViewProblem& problem, const Trial& general);
-
-/** \brief The best tapered body, if the families' best ones show that a taper would
- * help: its share in what a Gauss-Newton step would gain (Rao's score test). */
-std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
-                                       double sigma,
-                                       const std::vector<ShapeCandidate>& candidates);
-
-/** \brief Last iterations of a tapered body with all points. */
-void fitTaperAllPoints(const ViewProblem& problem,
-                       double sigma,
-                       ShapeCandidate& chosen);
-
-/** \brief The best open vessel, if no solid is near the points or the best one hides
- * some of them. \param[in,out] candidates all solids; those pay for what they hide */
-std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
-                                        double sigma,
-                                        std::vector<ShapeCandidate>& candidates);
-
-/** \brief Last iterations of a vessel with all points. */
-void fitVesselAllPoints(const ViewProblem& problem,
-                        double sigma,
-                        ShapeCandidate& chosen);
-
-/** \brief Last iterations of the chosen family with all points. */
-void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);
 
 } // namespace pcl_sq::detail

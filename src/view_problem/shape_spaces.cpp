@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_fit/shape_spaces.h"
+#include "view_problem/shape_spaces.h"
 
 namespace pcl_sq::detail {
 

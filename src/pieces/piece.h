@@ -43,6 +43,9 @@ struct PieceContext {
 /** \brief Observed points. */
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns);
 
+/** \brief Half the diagonal of the box of points [m]. */
+double halfDiagonal(const Eigen::Matrix3Xd& points);
+
 /** \brief The whole object as one piece. */
 Piece wholePiece(const PieceContext& context);
 

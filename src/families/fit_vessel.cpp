@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The family of open vessels: bowls, cups, pots, plates.
-#include "view_fit/shape_spaces.h"
-#include "view_fit/vessel_problem.h"
+#include "families/families.h"
+#include "families/vessel_problem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,68 +28,6 @@ constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behin
 constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
 constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
 constexpr std::size_t KEPT = 2; ///< starts that are refined
-constexpr double CUT = 0.02;    ///< share of the points beyond an extent's end
-
-/** \brief Profiles of household vessels: cup, pot or plate, bowl. */
-struct Kind {
-  double epsilon1, taper, rim;
-};
-constexpr std::array<Kind, 4> KINDS = {
-    {{0.15, 0.05, 0.9}, {0.2, 0.3, 0.9}, {0.5, 0.2, 0.6}, {1.0, 0.0, 0.05}}};
-
-struct Interval {
-  double low, high;
-  double middle() const { return 0.5 * (low + high); }
-  double half() const { return 0.5 * (high - low); }
-};
-
-Interval extentAlong(const UnitPoints& points, const Eigen::Vector3d& axis) {
-  std::vector<double> along(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    along[i] = axis.dot(points[i].cast<double>());
-  const auto cut = static_cast<std::ptrdiff_t>(CUT * double(along.size()));
-  std::nth_element(along.begin(), along.begin() + cut, along.end());
-  const double low = along[std::size_t(cut)];
-  std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
-  return {low, *(along.end() - 1 - cut)};
-}
-
-/** \brief Vessels around the points with a given axis, from the bottom up. */
-std::vector<Superquadric> vesselStarts(const ViewProblem& p,
-                                       const Eigen::Vector3d& up) {
-  Superquadric s;
-  s.rotation.col(2) = up;
-  s.rotation.col(0) =
-      p.hasView() ? up.cross(p.view()).stableNormalized() : up.unitOrthogonal();
-  if (!(s.rotation.col(0).norm() > 0.5)) // seen along the axis
-    s.rotation.col(0) = up.unitOrthogonal();
-  s.rotation.col(1) = up.cross(s.rotation.col(0));
-  // from the near outside to the far inside, and from side to side
-  const Interval across = extentAlong(p.medium(), s.rotation.col(0)),
-                 deep = extentAlong(p.medium(), s.rotation.col(1));
-  Interval high = extentAlong(p.medium(), up);
-  for (const TangentPlane& plane : p.tangents())
-    if (plane.normal.dot(up) < -UPRIGHT)
-      high.low = std::min(-plane.offset, high.high - 1e-3);
-  const double radius = std::max(across.half(), 1e-3);
-  std::vector<Superquadric> starts;
-  for (const Kind& kind : KINDS) {
-    s.epsilon1 = kind.epsilon1;
-    s.epsilon2 = 1.0;
-    s.kx = s.ky = kind.taper;
-    s.rim = kind.rim;
-    const double growth =
-        (1.0 + kind.taper * kind.rim) *
-        std::pow(1.0 - std::pow(kind.rim, 2.0 / kind.epsilon1), 0.5 * kind.epsilon1);
-    const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
-    s.semi_axes = {radius / growth, radius / growth, a3};
-    s.wall = std::min(0.07 * radius, 0.3 * a3);
-    s.center = across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1) +
-               (high.low + a3) * up;
-    starts.push_back(s);
-  }
-  return starts;
-}
 
 struct Vessel {
   Superquadric model;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
-#include "view_fit/plane_sums.h"
-#include "view_fit/shape_spaces.h"
-#include "view_fit/view_problem.h"
+#include "families/families.h"
+#include "view_problem/plane_sums.h"
+#include "view_problem/shape_spaces.h"
 
 #include <algorithm>
 #include <cmath>

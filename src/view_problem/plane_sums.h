@@ -2,7 +2,7 @@
 // Private. The sums of a PlaneCost for a superquadric, by the kernels.
 #pragma once
 
-#include "view_fit/plane_cost.h"
+#include "view_problem/plane_cost.h"
 
 namespace pcl_sq::detail {
 

@@ -2,9 +2,9 @@
 // Private. Least squares over the parameters of an open vessel of revolution.
 #pragma once
 
-#include "view_fit/view_problem.h"
+#include "families/vessel_profile.h"
+#include "view_problem/view_problem.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -26,26 +26,6 @@ struct RobustCost {
     share = density / (density + c);
     return (std::log1p(c) - std::log(density + c)) / s;
   }
-};
-
-/** \brief A place of a vessel's meridian, (distance from the axis, height), with its
- * derivatives for ln a, ln a3, e1, k, rim, ln wall. */
-struct ProfileVertex {
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();
-  Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
-};
-
-/** \brief The meridian of a vessel as two polylines: what may be seen from outside (the
- * outer wall from the pole below to the rim, and the rim), and what through the opening
- * (the floor from its middle, and the inner wall up to the rim). */
-struct VesselProfile {
-  static constexpr int OUTER = 20, INNER = 12; ///< steps of the walls
-  std::array<ProfileVertex, OUTER + 2> outside;
-  std::array<ProfileVertex, INNER + 2> inside;
-
-  explicit VesselProfile(const Superquadric& s);
-  double rimHeight() const { return outside[OUTER].at.y(); }
-  double opening() const { return inside[INNER + 1].at.x(); } ///< radius
 };
 
 /** \brief M21: points, planes and the wall's prior, as minimiseSquares() wants them.
@@ -94,5 +74,8 @@ private:
 
 /** \brief Free directions: all, or without the axis's turns where it is upright. */
 Basis<VesselProblem::N> vesselBasis(bool upright);
+
+/** \brief Vessels around the points with a given axis, from the bottom up. */
+std::vector<Superquadric> vesselStarts(const ViewProblem& p, const Eigen::Vector3d& up);
 
 } // namespace pcl_sq::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_fit/view_problem.h"
+#include "view_problem/view_problem.h"
 
-#include "view_fit/plane_sums.h"
+#include "view_problem/plane_sums.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // M18: where an object may consist of two parts: where its width changes at once.
-#include "parts/object_piece.h"
+#include "pieces/piece.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/descriptions.h"
-#include "view_fit/view_problem.h"
+#include "view_problem/view_problem.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. The families that have parameters of their own beside a superquadric's.
+#pragma once
+
+#include "view_problem/view_problem.h"
+
+namespace pcl_sq::detail {
+
+/** \brief The best tapered body, if the families' best ones show that a taper would
+ * help: its share in what a Gauss-Newton step would gain (Rao's score test). */
+std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
+                                       double sigma,
+                                       const std::vector<ShapeCandidate>& candidates);
+
+/** \brief Last iterations of a tapered body with all points. */
+void fitTaperAllPoints(const ViewProblem& problem,
+                       double sigma,
+                       ShapeCandidate& chosen);
+
+/** \brief The best open vessel, if no solid is near the points or the best one hides
+ * some of them. \param[in,out] candidates all solids; those pay for what they hide */
+std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
+                                        double sigma,
+                                        std::vector<ShapeCandidate>& candidates);
+
+/** \brief Last iterations of a vessel with all points. */
+void fitVesselAllPoints(const ViewProblem& problem,
+                        double sigma,
+                        ShapeCandidate& chosen);
+
+} // namespace pcl_sq::detail

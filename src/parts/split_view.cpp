@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/split_view.h"
+
+#include "util/parallel_for.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr double GOOD_FIT = 1.6; ///< cost per observation of a part that needs no cut
+constexpr std::size_t TRIED = 4; ///< best cuts that are fitted in full
+/** \brief Score of quick fits from which on a cut is not worth full ones: over what it
+ * is to beat, and the factor over the best cut's. */
+constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
+/** \brief How far the best cut is moved, over half the piece's size. */
+constexpr std::array<double, 4> SHIFTS = {-0.1, -0.05, 0.05, 0.1};
+
+struct Split {
+  Cut cut;
+  bool shifted = false; ///< believed of solids of revolution only: others bend to it
+  Piece first, second;
+  double score = 1e300;
+};
+
+Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
+  Split s;
+  s.cut = cut;
+  s.first = cutPiece(context, piece, cut);
+  s.second = cutPiece(context, piece, cut.flipped());
+  if (s.first.points.empty() || s.second.points.empty())
+    return s;
+  if (s.first.points.size() < s.second.points.size())
+    std::swap(s.first, s.second);
+  fitPiece(context, s.first, Effort::QUICK);
+  fitPiece(context, s.second, Effort::QUICK);
+  s.score = s.first.score + s.second.score;
+  return s;
+}
+
+bool betterSplit(const Split& a, const Split& b) {
+  return a.score < b.score;
+}
+
+void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
+  fitPiece(context, s.first, Effort::AGAIN, axis);
+  fitPiece(context, s.second, Effort::AGAIN, axis ? axis : axisOf(s.first));
+  s.score = s.first.score + s.second.score;
+}
+
+/** \brief Adds the best cut moved to where its two parts fit better: a bottle's
+ * shoulder is as long as several of the profile's bins, and either part may have to
+ * take it. */
+void addShifted(const PieceContext& context,
+                const Piece& piece,
+                std::vector<Split>& splits) {
+  const auto best = std::min_element(splits.begin(), splits.end(), betterSplit);
+  if (best == splits.end() || !(best->score < 1e299))
+    return;
+  const double size = halfSize(context, piece);
+  std::vector<Split> shifted(SHIFTS.size());
+  parallelFor(SHIFTS.size(), context.options.fit.threads, [&](std::size_t i) {
+    shifted[i] =
+        split(context, piece, shiftedCut(context, best->cut, SHIFTS[i] * size));
+    shifted[i].shifted = true;
+  });
+  Split& next = *std::min_element(shifted.begin(), shifted.end(), betterSplit);
+  if (next.score < best->score)
+    splits.push_back(std::move(next));
+}
+
+/** \brief Leaves the cuts that are worth full fits.
+ * \param[in] limit what the score is to beat */
+void keepPromising(std::vector<Split>& splits, double limit) {
+  std::sort(splits.begin(), splits.end(), betterSplit);
+  if (!splits.empty())
+    limit = std::min(limit + QUICK_SLACK,
+                     QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
+  while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
+    splits.pop_back();
+}
+
+/** \brief Whether a piece's model is a body: splinters thinner than the noise and
+ * needles longer than the object are none. */
+bool isPart(const PieceContext& context, const Piece& piece) {
+  const Eigen::Vector3d half = piece.fit.fit.model.halfSizes();
+  return half.minCoeff() > context.noise &&
+         half.maxCoeff() < 2.0 * context.observed.extent;
+}
+
+/** \brief The best way to cut a piece in two; score 1e300 if there is none.
+ * \param[in] axis another part whose axis the two may share, or nullptr
+ * \param[in] limit what the score is to beat */
+Split bestSplit(const PieceContext& context,
+                const Piece& piece,
+                const Superquadric* axis,
+                double limit) {
+  const std::vector<Cut> cuts = proposeCuts(context, piece);
+  std::vector<Split> splits(cuts.size());
+  const unsigned int threads = context.options.fit.threads;
+  parallelFor(cuts.size(), threads, [&](std::size_t i) {
+    splits[i] = split(context, piece, cuts[i]);
+  });
+  addShifted(context, piece, splits);
+  keepPromising(splits, limit);
+  parallelFor(splits.size(), threads, [&](std::size_t i) {
+    fitInFull(context, splits[i], axis);
+  });
+  Split best;
+  if (standsOff(context, piece, best.first, best.second)) {
+    fitPiece(context, best.first, Effort::FULL);
+    fitHandle(context, best.second, piece.fit.fit.model);
+    // a bottle's neck is no handle: without it the body is no vessel
+    if (best.first.fit.chosen.shape == ShapeClass::VESSEL)
+      best.score = best.first.score + best.second.score;
+  }
+  for (Split& s : splits)
+    if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
+        (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
+      best = std::move(s);
+  return best;
+}
+
+/** \brief Merges pairs of parts while one explains them as well as two. */
+void mergeParts(const PieceContext& context,
+                std::vector<Piece>& pieces,
+                double min_gain) {
+  while (pieces.size() > 2) {
+    double best = -min_gain;
+    std::size_t first = 0, second = 0;
+    Piece chosen;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t j = i + 1; j < pieces.size(); ++j) {
+        Piece merged = mergePieces(pieces[i], pieces[j]);
+        fitPiece(context, merged, Effort::QUICK);
+        const double gain = pieces[i].score + pieces[j].score - merged.score;
+        if (gain > best) {
+          best = gain;
+          first = i;
+          second = j;
+          chosen = std::move(merged);
+        }
+      }
+    if (chosen.points.empty())
+      return;
+    fitPiece(context, chosen, Effort::FULL);
+    pieces[first] = std::move(chosen);
+    pieces.erase(pieces.begin() + std::ptrdiff_t(second));
+  }
+}
+
+} // namespace
+
+double observations(const PieceContext& context, const Piece& piece) {
+  return context.observed.effective_points * double(piece.points.size()) /
+         double(context.observed.points.cols());
+}
+
+const Superquadric* axisOf(const Piece& piece) {
+  return piece.fit.chosen.shape == ShapeClass::ROTATIONAL ? &piece.fit.fit.model
+                                                          : nullptr;
+}
+
+std::size_t largestOfRevolution(const std::vector<Piece>& pieces) {
+  std::size_t largest = pieces.size();
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    if (axisOf(pieces[k]) && (largest == pieces.size() ||
+                              pieces[k].points.size() > pieces[largest].points.size()))
+      largest = k;
+  return largest;
+}
+
+void splitView(const PieceContext& context,
+               std::vector<Piece>& pieces,
+               int wanted,
+               double min_gain) {
+  const bool exactly = context.options.parts > 0;
+  while (int(pieces.size()) < wanted) {
+    Split best;
+    std::size_t which = 0;
+    double gain = exactly ? -1e300 : min_gain;
+    const std::size_t main = largestOfRevolution(pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      Piece& piece = pieces[i];
+      Piece body, handle;
+      const bool good =
+          piece.straight_misfit < GOOD_FIT * observations(context, piece) &&
+          !standsOff(context, piece, body, handle);
+      if (piece.final || (good && !exactly))
+        continue;
+      Split s =
+          bestSplit(context,
+                    piece,
+                    main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
+                    exactly ? 1e299 : piece.straight_score);
+      if (piece.score - s.score > gain) {
+        gain = piece.score - s.score;
+        best = std::move(s);
+        which = i;
+      } else if (!exactly)
+        piece.final = true;
+    }
+    if (best.score > 1e299)
+      break;
+    pieces[which] = best.first;
+    pieces.push_back(best.second);
+  }
+  if (!exactly)
+    mergeParts(context, pieces, min_gain);
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One piece, one superquadric: fitted, and scored so that pieces compare (M17).
+#include "pieces/free_space.h"
+#include "pieces/piece_outline.h"
+#include "view_fit/search_view.h"
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int QUICK_STARTS = 4;
+/** \brief Largest exponent of a part that a cut ends: composite things are made of
+ * cans, boxes and balls. A pinched part follows errors of its points, and its hidden
+ * side comes out too flat. */
+constexpr double PART_EPSILON = 1.0;
+constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
+constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
+
+/** \brief Whether a piece reaches the table: its lowest points are on it, or nobody
+ * saw that it ends before. \param[in] whole whether it is all of the object */
+bool reachesTable(const PieceContext& context,
+                  const Eigen::Matrix3Xd& points,
+                  bool whole) {
+  if (!context.observed.table)
+    return false;
+  if (whole && context.observed.hidden_below)
+    return true;
+  std::vector<double> heights;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    heights.push_back(context.observed.table->height(points.col(i)));
+  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
+  std::nth_element(heights.begin(), low, heights.end());
+  // the lowest visible points of a body lie somewhat above its bottom's far edge
+  return *low <
+         0.18 * context.observed.extent + 3.0 * context.noise + context.observed.foot;
+}
+
+} // namespace
+
+void fitPiece(const PieceContext& context,
+              Piece& piece,
+              Effort effort,
+              const Superquadric* coaxial) {
+  const ObservedObject& o = context.observed;
+  const Eigen::Matrix3Xd points = gather(context, piece.points);
+  const double share = double(points.cols()) / double(o.points.cols());
+  ViewFitOptions options = context.options.fit;
+  if (!o.pixels.cells.empty() && !piece.ends.empty())
+    options.max_epsilon = std::min(options.max_epsilon, PART_EPSILON);
+  options.noise = context.noise;
+  options.effective_points = std::max(12.0, share * o.effective_points);
+  options.max_semi_axis = 1.5 * halfDiagonal(points);
+  options.precision.clear(); // fitObject() knows it of each point, see isValid()
+  if (!context.precision.empty())
+    for (const int i : piece.points)
+      options.precision.push_back(context.precision[std::size_t(i)]);
+  const bool general = effort == Effort::QUICK || effort == Effort::START;
+  options.choose_shape = options.choose_shape && !general;
+  options.vessel = options.vessel && piece.stands; // a handle is none
+  options.taper = options.taper && piece.stands;   // nor is it a cone
+  options.all_points = !o.hasCamera() && !general;
+  if (coaxial)
+    options.coaxial = *coaxial;
+  if (effort == Effort::QUICK)
+    options.starts = QUICK_STARTS;
+  if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
+    options.start = piece.fit.straight().model;
+  ViewEvidence evidence =
+      o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
+                 context.options.silhouette_lines,
+                 piece.stands && reachesTable(context, points, piece.ends.empty()));
+  evidence.tangents.insert(
+      evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
+  evidence.limits.insert(
+      evidence.limits.end(), context.limits.begin(), context.limits.end());
+  const double price = std::log(1.0 + o.effective_points); // of a parameter
+  const auto assess = [&](ViewFit fit, double hinges) {
+    Piece assessed;
+    assessed.fit = std::move(fit);
+    if (!assessed.fit.fit.ok())
+      return assessed;
+    assessed.covered = coveredFreeSpace(context, assessed.fit.fit.model).cost;
+    assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
+    assessed.score = assessed.misfit -
+                     (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
+                     (assessed.fit.chosen.shape == ShapeClass::TAPERED  ? TAPER
+                      : assessed.fit.chosen.shape == ShapeClass::VESSEL ? VESSEL
+                                                                        : 0.0) +
+                     assessed.fit.chosen.parameters * price -
+                     0.5 * double(evidence.silhouette.size());
+    assessed.straight_misfit = assessed.misfit;
+    assessed.straight_score = assessed.score;
+    if (assessed.fit.chosen.shape == ShapeClass::TAPERED) {
+      const ShapeCandidate &tapered = assessed.fit.chosen,
+                           &straight = assessed.fit.straight();
+      assessed.straight_misfit += straight.cost - tapered.cost;
+      assessed.straight_score += straight.cost - tapered.cost - TAPER -
+                                 (tapered.parameters - straight.parameters) * price;
+    }
+    return assessed;
+  };
+  Piece best = assess(searchView(points, evidence, options), 0.0);
+  const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
+  for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
+    if (!coversFreeSpace(best))
+      break;
+    const Covered covered = coveredFreeSpace(context, best.fit.fit.model);
+    ViewEvidence more = evidence;
+    more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
+    options.start = best.fit.straight().model;
+    ViewFit next = searchView(points, more, options);
+    const double hinges = hingeCost(covered.limits, next.fit.model);
+    Piece assessed = assess(std::move(next), hinges);
+    if (!(assessed.score < best.score))
+      break;
+    best = std::move(assessed);
+  }
+  piece.fit = std::move(best.fit);
+  piece.covered = best.covered;
+  piece.misfit = best.misfit;
+  piece.score = best.score;
+  piece.straight_misfit = best.straight_misfit;
+  piece.straight_score = best.straight_score;
+}
+
+bool coversFreeSpace(const Piece& piece) {
+  return piece.covered >= WORTH_A_ROUND;
+}
+
+} // namespace pcl_sq::detail

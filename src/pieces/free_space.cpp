@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/free_space.h"
+
+#include "pcl_sq/line_intersection.h"
+#include "pieces/body_outline.h"
+#include "view_problem/plane_cost.h"
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Largest cost of one contradiction: -2 ln of an outlier's density over the
+ * Gaussian's peak, as for the points. */
+constexpr double MAX_COST = 9.2;
+/** \brief How far parts stick out where the object is hollow, over its size: what is no
+ * superquadric cannot be followed closer. */
+constexpr double FREE_SIGMA = 0.03;
+
+/** \brief A point of a ray well inside a body. \return false if the ray misses it */
+bool insideOnRay(const Superquadric& body,
+                 const Eigen::Vector3d& from,
+                 const Eigen::Vector3d& ray,
+                 Eigen::Vector3d& inside) {
+  LineInterval chord;
+  if (!intersectLineBox(body, from, ray, chord) ||
+      !intersectLine(body, from, ray, chord))
+    return false;
+  // the middle of the chord lies about where the ray comes nearest to the centre
+  inside = from + 0.5 * (chord.enter + chord.leave) * ray;
+  return true;
+}
+
+} // namespace
+
+/** \brief M11. */
+Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) {
+  const ObservedObject& o = context.observed;
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
+  const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+  Covered covered;
+  // beyond the outline of a body that is not plain no costly search along the ray
+  const BodyOutline outline =
+      body.isPlain() ? BodyOutline() : BodyOutline(body, o.camera.center, 24);
+  for (const Eigen::Vector2d& p : o.free_space) {
+    const Eigen::Vector3d ray = o.camera.ray(p);
+    if (outline.misses(ray))
+      continue;
+    Eigen::Vector3d inside;
+    if (!insideOnRay(body, o.camera.center, ray, inside))
+      continue;
+    TangentPlane limit;
+    limit.normal = body.isCut()
+                       ? body.gaugeGradient(inside)
+                       : body.rotation * -body.logGaugeJacobian(inside).head<3>();
+    limit.normal -= limit.normal.dot(ray) * ray;
+    if (!(limit.normal.norm() > 1e-9))
+      continue;
+    limit.normal.normalize();
+    limit.offset = limit.normal.dot(inside);
+    limit.sigma = sigma / std::sqrt(o.free_weight);
+    const double z = limit.residual(body) / sigma;
+    covered.cost += o.free_weight * std::min(z * z, MAX_COST);
+    covered.limits.push_back(limit);
+  }
+  return covered;
+}
+
+double hingeCost(const std::vector<TangentPlane>& limits, const Superquadric& body) {
+  double cost = 0.0;
+  for (const TangentPlane& limit : limits)
+    cost += std::pow(std::max(0.0, limit.residual(body)) / limit.sigma, 2);
+  return cost;
+}
+
+} // namespace pcl_sq::detail

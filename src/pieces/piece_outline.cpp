@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/piece_outline.h"
+
+#include <algorithm>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief How far from a cut the outline may be the joint's or the other part's, over
+ * the part's size: shoulders are round, and cuts are not placed better than that. A
+ * line that touches what is left of a bottle's shoulder makes its neck as wide. */
+constexpr double JOINT = 0.15;
+
+} // namespace
+
+double stripWidth(const ObservedObject& o) {
+  return (o.outline == OutlineSource::POINTS ? 0.8 * o.outline_sigma : 2.0) /
+         std::sqrt(o.camera.fx * o.camera.fy);
+}
+
+std::vector<ContourPoint>
+outlineBesideJoints(const ObservedObject& o, const Piece& piece, double size) {
+  if (!o.hasCamera() || piece.ends.empty())
+    return piece.contour;
+  const double joint = JOINT * size / o.depth;
+  std::vector<AngleAbove> angles;
+  for (const TangentPlane& end : piece.ends)
+    angles.emplace_back(o.camera, -end.normal);
+  const auto beyondJoints = [&](const Eigen::Vector2d& pixel) {
+    double nearest = 1e300;
+    for (const AngleAbove& angle : angles)
+      nearest = std::min(nearest, angle(pixel) - joint);
+    return nearest;
+  };
+  std::vector<ContourPoint> contour;
+  for (const ContourPoint& p : piece.contour)
+    if (beyondJoints(p.pixel) > 0.0)
+      contour.push_back(p);
+  const double strip = stripWidth(o);
+  for (const Eigen::Vector2d& p : piece.pixels) {
+    const double side = beyondJoints(p);
+    if (side > 0.0 && side < strip) {
+      ContourPoint foreign;
+      foreign.pixel = p;
+      foreign.own = false;
+      contour.push_back(foreign);
+    }
+  }
+  return contour;
+}
+
+} // namespace pcl_sq::detail

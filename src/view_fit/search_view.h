@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. The steps of a fit to one view.
+#pragma once
+
+#include "view_problem/view_problem.h"
+
+namespace pcl_sq::detail {
+
+/** \brief fitView() without the points' distances in its summary: most fits are
+ * only compared. */
+ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                   const ViewEvidence& evidence,
+                   const ViewFitOptions& options);
+
+/** \brief The points' distances of a fit's model. */
+void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit);
+
+/** \brief All families from the best general fit. */
+std::vector<ShapeCandidate> fitShapes(const ViewProblem& problem, const Trial& general);
+
+/** \brief Last iterations of the chosen family with all points. */
+void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);
+
+} // namespace pcl_sq::detail
