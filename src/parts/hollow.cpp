@@ -20,8 +20,8 @@ constexpr double SIGMAS = 4.0;
  * across: 0.1 for the sagitta of a hollow place as wide as it is deep. */
 constexpr double SAGITTA = 0.1;
 
-constexpr double OFF = 4.0;   ///< noise from which on a point is off a model
-constexpr double POOR = 0.3;  ///< share of such points of a model that is none
+constexpr double OFF = 4.0;  ///< noise from which on a point is off a model
+constexpr double POOR = 0.3; ///< share of such points of a model that is none
 /** \brief Shares of the points on the outside of hollow things. */
 constexpr double LEAST = 0.3, MOST = 0.8;
 constexpr double BETTER = 0.5; ///< share of points off the outside, over that of all
@@ -99,8 +99,7 @@ std::vector<Piece> fitOutside(const PieceContext& context,
   ObservedObject shell = o;
   shell.points = gather(context, outer);
   shell.effective_points = share * o.effective_points;
-  const PieceContext outside{
-      shell, context.options, context.noise, {}, context.limits};
+  const PieceContext outside{shell, context.options, context.noise, {}, context.limits};
   Piece whole = wholePiece(outside);
   fitPiece(outside, whole, Effort::FULL);
   if (!whole.fit.fit.ok())

@@ -33,7 +33,7 @@ struct BodyTrace {
   Eigen::AlignedBox3d box;
   Eigen::VectorXd distances; ///< signed, of all points [m]
   SurfaceCells cells;
-  Eigen::ArrayXd half; ///< sizes of the cells [m]
+  Eigen::ArrayXd half;     ///< sizes of the cells [m]
   double sticks_out = 0.0; ///< of the points' box [m]
 
   /** \brief Distances of the cells to another body, where those are near. */
@@ -76,10 +76,9 @@ std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
   const Eigen::Matrix3Xd& points = context.observed.points;
   trace->model = model;
   trace->box = model.boundingBox();
-  trace->distances =
-      model.isTapered() && !model.isCut()
-          ? taperedDistances(model, points, OUTLYING * context.noise)
-          : surfaceDistances(model, points);
+  trace->distances = model.isTapered() && !model.isCut()
+                         ? taperedDistances(model, points, OUTLYING * context.noise)
+                         : surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
   trace->half = 0.5 * trace->cells.areas.sqrt();
   trace->sticks_out =
@@ -133,8 +132,9 @@ double costOf(const PieceContext& context, const std::vector<const Part*>& parts
   for (const Part* part : parts)
     distances = distances.min(part->trace->distances.array());
   const Eigen::ArrayXd z = distances / context.noise;
-  return -2.0 *
-         (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
+  return -2.0 * (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER))
+                    .log()
+                    .sum();
 }
 
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
