@@ -2,6 +2,7 @@
 #include "stereo/stereo_model.h"
 
 #include "stereo/hand_over.h"
+#include "stereo/stereo_cloud.h"
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
