@@ -20,6 +20,8 @@ constexpr double OUTLIER = 0.01;
 /** \brief Distance over the noise from which on a point costs the same, to the last
  * digit. */
 constexpr double OUTLYING = 9.0;
+/** \brief Surfaces nearer to each other than so many times the noise are one. */
+constexpr double SIDE_BY_SIDE = 2.0;
 /** \brief A body may leave the box of the points by so much of the box's half diagonal
  * before its fit is repeated within the box, and where it then still does, it is no
  * part: points show all sides, and what is beyond them is empty. */
@@ -33,7 +35,7 @@ struct BodyTrace {
   Eigen::AlignedBox3d box;
   Eigen::VectorXd distances; ///< signed, of all points [m]
   SurfaceCells cells;
-  Eigen::ArrayXd half; ///< sizes of the cells [m]
+  Eigen::ArrayXd half; ///< of the cells' width, on either side of another surface [m]
   double sticks_out = 0.0; ///< of the points' box [m]
 
   /** \brief Distances of the cells to another body, where those are near. */
@@ -81,7 +83,9 @@ std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
           ? taperedDistances(model, points, OUTLYING * context.noise)
           : surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
-  trace->half = 0.5 * trace->cells.areas.sqrt();
+  // one width for both of two surfaces that run side by side, or the area between them
+  // would depend on the sizes of their cells
+  trace->half = (0.5 * trace->cells.areas.sqrt()).min(SIDE_BY_SIDE * context.noise);
   trace->sticks_out =
       std::max((trace->box.max() - points.rowwise().maxCoeff()).maxCoeff(),
                (points.rowwise().minCoeff() - trace->box.min()).maxCoeff());

@@ -264,7 +264,7 @@ bool WholeSearch::mergeOnce(Description& d) const {
       tries[t].score = 1e300;
       return;
     }
-    fitPart(context_, tries[t].members[merged[t]].part, Effort::AGAIN);
+    fitPart(context_, tries[t].members[merged[t]].part, Effort::FULL);
     settle(tries[t]);
   });
   for (Description& t : tries)
@@ -295,7 +295,7 @@ std::vector<Piece> WholeSearch::run(Piece whole) {
     if (exactly_ || worth(now) < worth(best)) {
       best = now;
       idle = 0;
-    } else if (++idle >= (misfit(now) > POOR ? PATIENCE : 1))
+    } else if (++idle >= PATIENCE)
       break;
   }
   while (!exactly_ && best.members.size() > 1 && mergeOnce(best)) {
