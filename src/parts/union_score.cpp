@@ -2,6 +2,7 @@
 #include "parts/union_score.h"
 
 #include "parts/exposed_area.h"
+#include "util/point_grid.h"
 #include "view_problem/plane_cost.h"
 
 #include <algorithm>
@@ -20,6 +21,9 @@ constexpr double OUTLIER = 0.01;
 /** \brief Distance over the noise from which on a point costs the same, to the last
  * digit. */
 constexpr double OUTLYING = 9.0;
+/** \brief Of a point that others are spread about evenly, to the nearest of them, over
+ * their spacing: exp(-pi 2^2) is the chance of more. */
+constexpr double FARTHEST = 2.0;
 /** \brief Surfaces nearer to each other than so many times the noise are one. */
 constexpr double SIDE_BY_SIDE = 2.0;
 /** \brief A body may leave the box of the points by so much of the box's half diagonal
@@ -106,6 +110,18 @@ std::vector<TangentPlane> sidesOfBox(const ObservedObject& o) {
   return sides;
 }
 
+/** \brief Cost of the points' distances to the union, summed over all of them. */
+double costOf(const PieceContext& context, const std::vector<const Part*>& parts) {
+  // the smallest signed distance is that to the union
+  Eigen::ArrayXd distances =
+      Eigen::ArrayXd::Constant(context.observed.points.cols(), 1e300);
+  for (const Part* part : parts)
+    distances = distances.min(part->trace->distances.array());
+  const Eigen::ArrayXd z = distances / context.noise;
+  return -2.0 *
+         (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
+}
+
 } // namespace
 
 void traceAgain(const PieceContext& context, Part& part) {
@@ -128,17 +144,6 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
     fitPiece(within, part.piece, effort);
     traceAgain(context, part);
   }
-}
-
-double costOf(const PieceContext& context, const std::vector<const Part*>& parts) {
-  // the smallest signed distance is that to the union
-  Eigen::ArrayXd distances =
-      Eigen::ArrayXd::Constant(context.observed.points.cols(), 1e300);
-  for (const Part* part : parts)
-    distances = distances.min(part->trace->distances.array());
-  const Eigen::ArrayXd z = distances / context.noise;
-  return -2.0 *
-         (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
 }
 
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
@@ -164,6 +169,22 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
           2.0 * std::log(area / (o.extent * o.extent))) *
              o.effective_points +
          parameters * std::log(1.0 + o.effective_points) + demand;
+}
+
+double covered(const PieceContext& context, const Superquadric& body) {
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)
+    points.emplace_back(context.observed.points.col(i));
+  const SurfaceCells cells = surfaceCells(body);
+  const double area = cells.areas.sum();
+  // where points are spread evenly, hardly any place is farther from all than this
+  const double reach = FARTHEST * std::sqrt(area / double(points.size()));
+  const PointGrid grid(std::move(points), reach);
+  double beside = 0.0;
+  for (Eigen::Index i = 0; i < cells.areas.size(); ++i)
+    if (grid.anyNear(cells.middles.col(i), reach))
+      beside += cells.areas[i];
+  return beside / area;
 }
 
 bool assignPoints(const PieceContext& context, std::vector<Part>& parts) {
