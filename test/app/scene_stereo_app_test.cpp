@@ -73,13 +73,9 @@ TEST(SceneProgram, WritesEveryThingAndItsPicture) {
   EXPECT_TRUE(file.table);
   EXPECT_EQ(slurp(folder / "scene.png").substr(1, 3), "PNG");
   // its own labels give the same things
-  const ProgramRun again = runProgram("pcl_sq_scene",
-                                      {cloud,
-                                       "--labels",
-                                       folder / "labels.png",
-                                       "-o",
-                                       folder / "again.json",
-                                       "-q"});
+  const ProgramRun again = runProgram(
+      "pcl_sq_scene",
+      {cloud, "--labels", folder / "labels.png", "-o", folder / "again.json", "-q"});
   ASSERT_EQ(again.code, 0) << again.err;
   SceneFile same;
   ASSERT_TRUE(loadScene(folder / "again.json", same, &why)) << why;

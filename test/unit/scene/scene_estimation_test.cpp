@@ -66,8 +66,7 @@ double farthest(const Scene& scene, const TableScene& truth, const PinholeCamera
     const Eigen::Vector3d at = to.rotation.transpose() * (thing.center - to.center);
     double nearest = 1e9;
     for (const SceneObject& object : scene.objects)
-      nearest =
-          std::min(nearest, (object.model.boundingBox().center() - at).norm());
+      nearest = std::min(nearest, (object.model.boundingBox().center() - at).norm());
     most = std::max(most, nearest);
   }
   return most;
@@ -180,8 +179,7 @@ TEST(SceneEstimation, WhatAnotherThingHidesEndsAtNoOutline) {
   // the can's right half is hidden by a box close before it
   TableScene truth = fineScene();
   truth.can().stand({0.05, -0.065}, {0.045, 0.01, 0.07}, 0.1, 0.1);
-  const Scene scene =
-      estimate(cloudOf(truth, truth.inCamera(), true), truthOf(truth));
+  const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true), truthOf(truth));
   ASSERT_EQ(scene.objects.size(), 2u) << scene.failure;
   const SceneObject& can = scene.objects[0];
   EXPECT_LT(can.visible, 0.85);
