@@ -63,6 +63,7 @@ def prepare(folder):
     scene_files.depth_scene(folder)
     scene_files.chessboards(folder)
     for command in ("pcl_sq_render bottle --out bottle -q",
+                    "pcl_sq_scene kinect.pcd -q -o tabletop.json",
                     "pcl_sq_fit can.pcd -q -o model.json --mesh mesh.stl",
                     "pcl_sq_fit can.pcd -q -o model.json --mesh mesh.obj"):
         done = run(command, folder)
