@@ -40,7 +40,7 @@ Place footOf(const Superquadric& s, const Eigen::Vector3d& local, double& distan
   const Place first = radiallyProjected(s, place);
   const Eigen::Vector3d normal = logGradient(s, first).normalized();
   const Eigen::Vector3d on_plane = local - normal.dot(local - first.at) * normal;
-  const Place second = radiallyProjected(s, placeOf(s, on_plane));
+  Place second = radiallyProjected(s, placeOf(s, on_plane));
   distance = std::min((local - second.at).norm(), (local - first.at).norm());
   if (!(place.gauge.value > 0.0))
     distance = -distance;

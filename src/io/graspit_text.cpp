@@ -50,7 +50,8 @@ Primitive closestPrimitive(const Superquadric& part) {
   std::vector<int> both(all.size()), either(all.size());
   const int layers = !part.isPlain() ? 2 * CELLS : CELLS;
   for (int i = 0; i < CELLS * CELLS * layers; ++i) {
-    const Eigen::Vector3d cell(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS);
+    const Eigen::Vector3d cell =
+        Eigen::Vector3i(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS).cast<double>();
     // all shapes are symmetric, but a tapered part, or one with a rim, across z: an
     // eighth of the box is enough, or a quarter
     Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);

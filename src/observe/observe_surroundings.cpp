@@ -20,7 +20,8 @@ constexpr int FREE_SPACE = 500; ///< about so many around the object are looked 
 } // namespace
 
 bool occluded(const Observation& o, const DepthPatch& patch, int x, int y) {
-  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
+  constexpr std::size_t WINDOW =
+      std::size_t(2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
   std::array<double, WINDOW> depths, spare;
   const auto median = [&](std::size_t count) {
     return orderStatistic(depths.data(), spare.data(), count, count / 2);
