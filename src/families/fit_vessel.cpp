@@ -158,10 +158,10 @@ double nearShare(const UnitPoints& points, double reach, const Superquadric& bod
 double deepShare(const UnitPoints& points, double sigma, const Superquadric& body) {
   std::vector<float> distances(points.size() + kernels::BLOCK);
   residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  const auto deep = std::count_if(
-      distances.begin(),
-      distances.begin() + std::ptrdiff_t(points.size()),
-      [&](float d) { return double(d) < -RESOLVED * sigma; });
+  const auto deep =
+      std::count_if(distances.begin(),
+                    distances.begin() + std::ptrdiff_t(points.size()),
+                    [&](float d) { return double(d) < -RESOLVED * sigma; });
   return double(deep) / double(points.size());
 }
 
@@ -188,11 +188,10 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
           EXPLAINED)
     return std::nullopt;
   // a solid between the two sides of a wall is off the points by as much
-  const double gain = 2.0 * problem.observations() *
-                      std::log(scatterOf(points,
-                                         std::max(sigma, vessel.model.wall),
-                                         solid.model) /
-                               scatterOf(points, own, vessel.model));
+  const double gain =
+      2.0 * problem.observations() *
+      std::log(scatterOf(points, std::max(sigma, vessel.model.wall), solid.model) /
+               scatterOf(points, own, vessel.model));
   ShapeCandidate c = candidateOf(vessel, problem);
   c.bic += solid.cost - gain - c.cost;
   c.cost = std::min(problem.observations(), solid.cost);
@@ -242,8 +241,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     return std::nullopt;
   if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
-  if (!problem.eye() &&
-      deepShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
+  if (!problem.eye() && deepShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
     return std::nullopt;
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())

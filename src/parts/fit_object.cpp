@@ -29,7 +29,8 @@ constexpr double MOST_UNEXPLAINED = 0.05;
 constexpr double FOOT = 0.0125;
 /** \brief Share of a vessel's points that may be its handle's. */
 constexpr double MOST_OF_HANDLE = 0.15;
-/** \brief Share of a vessel's surface that has points: between a table's legs are none. */
+/** \brief Share of a vessel's surface that has points: between a table's legs are none.
+ */
 constexpr double MOSTLY = 0.8;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size

@@ -82,10 +82,9 @@ std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
   const Eigen::Matrix3Xd& points = context.observed.points;
   trace->model = model;
   trace->box = model.boundingBox();
-  trace->distances =
-      model.isTapered() && !model.isCut()
-          ? taperedDistances(model, points, OUTLYING * context.noise)
-          : surfaceDistances(model, points);
+  trace->distances = model.isTapered() && !model.isCut()
+                         ? taperedDistances(model, points, OUTLYING * context.noise)
+                         : surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
   // one width for both of two surfaces that run side by side, or the area between them
   // would depend on the sizes of their cells
@@ -118,8 +117,9 @@ double costOf(const PieceContext& context, const std::vector<const Part*>& parts
   for (const Part* part : parts)
     distances = distances.min(part->trace->distances.array());
   const Eigen::ArrayXd z = distances / context.noise;
-  return -2.0 *
-         (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER)).log().sum();
+  return -2.0 * (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER))
+                    .log()
+                    .sum();
 }
 
 } // namespace

@@ -10,8 +10,8 @@ namespace pcl_sq::detail {
 
 struct BodyTrace;
 
-/** \brief A piece, and what its body is to all points: found once, used by each score of
- * a set of parts that it is in. */
+/** \brief A piece, and what its body is to all points: found once, used by each score
+ * of a set of parts that it is in. */
 struct Part {
   Piece piece;
   std::shared_ptr<const BodyTrace> trace;

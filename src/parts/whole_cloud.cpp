@@ -46,8 +46,7 @@ class WholeSearch {
 public:
   WholeSearch(const PieceContext& context, int wanted, bool exactly, double min_gain)
       : context_(context), graph_(context.observed.points), wanted_(wanted),
-        exactly_(exactly), min_gain_(min_gain),
-        threads_(context.options.fit.threads) {}
+        exactly_(exactly), min_gain_(min_gain), threads_(context.options.fit.threads) {}
 
   std::vector<Piece> run(Piece whole);
 
@@ -193,8 +192,7 @@ Description WholeSearch::step(Description& d) const {
     findWays(d, k);
     for (std::size_t w = 0; w < d.members[k].ways->size(); ++w) {
       const Way& way = (*d.members[k].ways)[w];
-      if (way.gain > -1e299 &&
-          int(d.members.size() + way.parts.size()) <= wanted_ + 1)
+      if (way.gain > -1e299 && int(d.members.size() + way.parts.size()) <= wanted_ + 1)
         choices.push_back({k, w, way.gain});
     }
   }

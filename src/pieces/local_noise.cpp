@@ -13,7 +13,7 @@ namespace {
 constexpr Eigen::Index SAMPLES = 100;
 constexpr Eigen::Index MAX_POINTS = 3000;
 constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
-constexpr double SHARING = 5.0;    ///< points of one error for which the fewest suffice
+constexpr double SHARING = 5.0; ///< points of one error for which the fewest suffice
 
 } // namespace
 
