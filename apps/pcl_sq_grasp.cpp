@@ -4,6 +4,7 @@
 #include "command_line/value_checks.h"
 #include "files/files.h"
 #include "files/graspit_folder.h"
+#include "model/export_output.h"
 #include "model/grasp_output.h"
 #include "options/model_options.h"
 #include "report/summary.h"
@@ -24,6 +25,7 @@ const char* const EXAMPLES =
     "  pcl_sq_grasp cup.json --table 0,0,1,0 -o grasps.json --snapshot grasps.png\n"
     "  pcl_sq_grasp scene.pcd --remove-plane --gripper robotiq_2f_85 --count 20\n"
     "  pcl_sq_grasp cup.json --cloud scene.pcd --gripper my_hand.toml\n"
+    "  pcl_sq_grasp cup.json --html grasps.html\n"
     "  pcl_sq_grasp cup.json --graspit ~/graspit\n"
     "  pcl_sq_grasp tabletop.json --object 1 -o grasps.json\n";
 
@@ -144,6 +146,11 @@ int plan(const std::string& input_path,
   if (options.graspit_name.empty())
     options.graspit_name = app::graspitName(input_path);
   app::writeGraspOutputs(input.file.model, plan, scene, options, json);
+  ModelFile shown = input.file;
+  app::addGrasps(plan, options, shown);
+  app::ExportOptions page;
+  page.html = options.html;
+  app::writeExports(page, shown, input.cloud ? &*input.cloud : nullptr);
   if (!app::quiet())
     app::printGrasps(plan, options, milliseconds);
   return app::DONE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/whole_cloud.h"
+#include "parts/exposed_area.h"
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
@@ -12,14 +12,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
+constexpr int CELLS = 6; ///< per edge of an octant of the cube projected onto a part
 constexpr int OCTANT = 3 * CELLS * CELLS;
-
-/** \brief A surface in small pieces. */
-struct SurfaceCells {
-  Eigen::Matrix3Xd middles{3, 8 * OCTANT};
-  Eigen::ArrayXd areas{8 * OCTANT};
-};
 
 /** \brief Of a body with a rim: the triangles of its mesh. */
 SurfaceCells meshCells(const Superquadric& part) {
@@ -38,10 +32,14 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
+} // namespace
+
 SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
+  cells.middles.resize(3, 8 * OCTANT);
+  cells.areas.resize(8 * OCTANT);
   const double volume = part.semi_axes.prod() / (CELLS * CELLS);
   for (int c = 0; c < OCTANT; ++c) {
     const int face = c / (CELLS * CELLS);
@@ -72,8 +70,6 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   return cells;
 }
 
-} // namespace
-
 void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,
                 const Eigen::ArrayXd& reach,
@@ -85,6 +81,18 @@ void keepNearer(const Superquadric& body,
     const Eigen::Vector3d outside = (local.cwiseAbs() - body.halfSizes()).cwiseMax(0.0);
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
+  }
+  if (body.isTapered() && !body.isCut()) {
+    // where it matters, at the surface, the first-order distance is as good
+    for (const Eigen::Index i : near) {
+      const Place place = placeOf(body, turn * (points.col(i) - body.center));
+      const double slope = logGradient(body, place).norm();
+      const double distance =
+          slope > 0.0 ? place.gauge.value / slope : -body.semi_axes.minCoeff();
+      if (distance < distances[i])
+        distances[i] = distance;
+    }
+    return;
   }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)

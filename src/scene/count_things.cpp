@@ -10,8 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Of an object's pixels: a smaller piece is a handle, a label, or a scrap of what
- * stands beside it. */
+/** \brief Of an object's pixels: a smaller piece is a handle, a label, or a scrap of
+ * what stands beside it. */
 constexpr double GOOD_SHARE = 0.15;
 
 } // namespace
@@ -31,18 +31,14 @@ int countThings(const ObservedObject& object,
   PinholeCamera camera = object.camera;
   camera.center.setZero();
   camera.rotation.setIdentity();
-  const SceneView view{seen,
-                       mask.width,
-                       mask.height,
-                       colors,
-                       camera,
-                       pose.toCamera(*object.table)};
+  const SceneView view{
+      seen, mask.width, mask.height, colors, camera, pose.toCamera(*object.table)};
   CellMask pixels = mask;
   for (std::size_t i = 0; i < pixels.cells.size(); ++i)
     if (const int c = int(i); pixels.cells[i])
-      pixels.cells[i] = view.finite(c) &&
-                        view.table.height(view.at(c)) >
-                            standingHeight(view.table, double(view.points(2, c)));
+      pixels.cells[i] =
+          view.finite(c) && view.table.height(view.at(c)) >
+                                standingHeight(view.table, double(view.points(2, c)));
   const double least = GOOD_SHARE * double(pixels.count());
   const std::vector<Patch> things =
       joinPatches(view, patchesOf(view, divide(view, pixels)));
