@@ -28,6 +28,11 @@ from . import _core, _shards
 from ._types import Error
 
 
+def _untyped(module: Any) -> Any:
+    """distributed has no types for what is used here."""
+    return module
+
+
 class Run:
     """The shards of a manifest and what is known of them."""
 
@@ -107,10 +112,10 @@ class Bar:
 
 def fit_all(run: Run, client: Any, bar: Bar) -> None:
     """Hands the shards to the workers, some ahead of what they can do at once."""
-    from distributed import KilledWorker, as_completed
+    import distributed
     waiting = run.waiting()
     pending: Dict[Any, int] = {}
-    queue = as_completed()
+    queue: Any = _untyped(distributed).as_completed()
 
     def submit() -> bool:
         number = next(waiting, None)
@@ -133,7 +138,8 @@ def fit_all(run: Run, client: Any, bar: Bar) -> None:
         number = pending.pop(future)
         if future.status == "finished":
             run.done[number] = future.result()
-        elif future.status == "error" and isinstance(future.exception(), KilledWorker):
+        elif future.status == "error" and isinstance(future.exception(),
+                                                         distributed.KilledWorker):
             run.done[number] = _one_by_one(run, number, client)
         elif future.status == "error":
             raise Error("a worker failed: %s" % future.exception())
@@ -183,8 +189,8 @@ def summary_of(run: Run, seconds: float, fitted_now: int, workers: int) -> Dict[
 def read_manifest(path: str) -> List[str]:
     """The clouds that a manifest names, with their whole names."""
     try:
-        with (contextlib.nullcontext(sys.stdin) if path == "-" else
-              open(path, encoding="utf-8", errors="surrogateescape")) as file:
+        with open(0 if path == "-" else path, encoding="utf-8",
+                  errors="surrogateescape") as file:
             lines = [line.rstrip("\r\n") for line in file]
     except OSError as error:
         raise Error("the manifest '%s' cannot be read: %s." % (path, error.strerror)) from None
@@ -199,10 +205,11 @@ def connected(arguments: argparse.Namespace) -> Iterator[Tuple[Any, int]]:
     """A client of the scheduler, and the number of its workers."""
     try:
         import dask
-        import distributed
+        import distributed as typed
     except ImportError:
         raise Error("Dask's scheduler is missing; install python3-distributed, or use "
                     "pcl_sq_fit --jsonl --shard.") from None
+    distributed = _untyped(typed)
     # a worker that is killed comes back; a shard that kills them is looked at one by one
     dask.config.set({"distributed.scheduler.allowed-failures": 5,
                      "distributed.comm.timeouts.connect": "20s"})

@@ -38,7 +38,12 @@ py::ssize_t evenStride(const py::array& array) {
 
 } // namespace
 
-PointArray::PointArray(const py::array& array) {
+PointArray::PointArray(const py::object& points) {
+  const py::array array = py::array::ensure(points);
+  if (!array) {
+    PyErr_Clear();
+    throw py::type_error("points want an array of numbers, float32 or float64");
+  }
   const char kind = array.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u')
     throw py::type_error("points want an array of numbers, float32 or float64");

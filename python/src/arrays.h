@@ -16,7 +16,8 @@ namespace pcl_sq::python {
 
 namespace py = pybind11;
 
-/** \brief Points of an array whose last side is three: one point, N x 3, H x W x 3.
+/** \brief Points of an array, or of what numpy makes one of, whose last side is three:
+ * one point, N x 3, H x W x 3.
  *
  * Rows of floats or doubles at an even distance are used where they are; what is not
  * even, aligned, native or of these types is copied. */
@@ -24,7 +25,7 @@ class PointArray {
 public:
   /** \throw std::invalid_argument for another shape \throw py::type_error if it holds
    * no real numbers */
-  explicit PointArray(const py::array& array);
+  explicit PointArray(const py::object& points);
 
   Eigen::Index size() const { return count_; }
   /** \brief The array's shape without the coordinates. */

@@ -22,7 +22,7 @@ namespace {
 
 /** \brief f of each point; NaN where a coordinate is not finite. */
 template <typename Function>
-py::object eachPoint(const py::array& array, const Function& f) {
+py::object eachPoint(const py::object& array, const Function& f) {
   const PointArray points(array);
   std::vector<double> values(static_cast<std::size_t>(points.size()));
   {
@@ -39,7 +39,7 @@ py::object eachPoint(const py::array& array, const Function& f) {
 }
 
 template <typename Body>
-py::object containsOf(const Body& body, const py::array& array) {
+py::object containsOf(const Body& body, const py::object& array) {
   const PointArray points(array);
   // vector<bool> has no memory to hand out
   const auto count = static_cast<std::size_t>(points.size());
@@ -58,7 +58,7 @@ py::object containsOf(const Body& body, const py::array& array) {
 
 /** \brief f of each point, a vector. */
 template <typename Function>
-py::array_t<double> eachVector(const py::array& array, const Function& f) {
+py::array_t<double> eachVector(const py::object& array, const Function& f) {
   const PointArray points(array);
   std::vector<py::ssize_t> shape = points.shape();
   shape.push_back(3);
@@ -81,7 +81,7 @@ std::vector<double> quickDistances(const Superquadric& body, const PointArray& p
 
 template <typename Body>
 py::object
-distanceOf(const Body& body, const py::array& array, const std::string& method) {
+distanceOf(const Body& body, const py::object& array, const std::string& method) {
   if (method == "exact")
     return eachPoint(
         array, [&](const Eigen::Vector3d& p) { return body.euclideanDistance(p); });
@@ -187,7 +187,7 @@ void addSuperquadric(py::module_& module) {
       .def("contains", &containsOf<S>, py::arg("points"), "Whether points lie inside.")
       .def(
           "gauge",
-          [](const S& s, const py::array& points) {
+          [](const S& s, const py::object& points) {
             return eachPoint(points,
                              [&](const Eigen::Vector3d& p) { return s.gauge(p); });
           },
@@ -195,7 +195,7 @@ void addSuperquadric(py::module_& module) {
           "F^(e1/2): below 1 inside, 1 on the surface.")
       .def(
           "closest_point",
-          [](const S& s, const py::array& points) {
+          [](const S& s, const py::object& points) {
             return eachVector(
                 points, [&](const Eigen::Vector3d& p) { return s.closestPoint(p); });
           },
@@ -203,7 +203,7 @@ void addSuperquadric(py::module_& module) {
           "The surface's closest point to each.")
       .def(
           "normal",
-          [](const S& s, const py::array& points) {
+          [](const S& s, const py::object& points) {
             return eachVector(points,
                               [&](const Eigen::Vector3d& p) { return s.normal(p); });
           },
@@ -280,7 +280,7 @@ void addUnion(py::module_& module) {
            "Whether points lie in a part.")
       .def(
           "nearest_part",
-          [](const M& m, const py::array& points) {
+          [](const M& m, const py::object& points) {
             if (m.empty())
               throw std::invalid_argument("a union without parts has no nearest one");
             return eachPoint(points,
@@ -318,7 +318,7 @@ void addUnion(py::module_& module) {
       .def("__repr__", [](const M& m) { return "<" + textOf(m) + ">"; });
 }
 
-py::dict fitOne(const py::array& array,
+py::dict fitOne(const py::object& array,
                 const std::optional<Superquadric>& initial,
                 bool taper,
                 const FitOptions& options) {
@@ -368,7 +368,7 @@ void addBodies(py::module_& module) {
   addUnion(module);
   module.def(
       "fit_superquadric",
-      [](const py::array& points,
+      [](const py::object& points,
          const std::optional<Superquadric>& initial,
          bool taper,
          double noise,

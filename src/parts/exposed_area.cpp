@@ -5,14 +5,17 @@
 #include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/triangle_mesh.h"
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int CELLS = 6; ///< per edge of an octant of the cube projected onto a part
+constexpr int CELLS = 7; ///< per edge of an octant of the cube projected onto a part
 constexpr int OCTANT = 3 * CELLS * CELLS;
 
 /** \brief Of a body with a rim: the triangles of its mesh. */
@@ -40,13 +43,22 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   SurfaceCells cells;
   cells.middles.resize(3, 8 * OCTANT);
   cells.areas.resize(8 * OCTANT);
-  const double volume = part.semi_axes.prod() / (CELLS * CELLS);
+  // Gauss's nodes are dense at the cube's edges, where small exponents bend the surface
+  using Rule = boost::math::quadrature::gauss<double, CELLS>;
+  std::array<double, CELLS> node, weight;
+  for (int i = 0; i < CELLS; ++i) {
+    const auto k = std::size_t(std::abs(i - CELLS / 2));
+    node[std::size_t(i)] = 0.5 + (i < CELLS / 2 ? -0.5 : 0.5) * Rule::abscissa()[k];
+    weight[std::size_t(i)] = 0.5 * Rule::weights()[k];
+  }
   for (int c = 0; c < OCTANT; ++c) {
     const int face = c / (CELLS * CELLS);
     Eigen::Vector3d d;
     d[face] = 1.0;
-    d[(face + 1) % 3] = (c % CELLS + 0.5) / CELLS;
-    d[(face + 2) % 3] = (c / CELLS % CELLS + 0.5) / CELLS;
+    const auto u = std::size_t(c % CELLS), v = std::size_t(c / CELLS % CELLS);
+    d[(face + 1) % 3] = node[u];
+    d[(face + 2) % 3] = node[v];
+    const double volume = part.semi_axes.prod() * weight[u] * weight[v];
     const Eigen::Vector3d local = d.cwiseProduct(part.semi_axes);
     const LogGauge g = logGauge(local, part.semi_axes, part.epsilon1, part.epsilon2);
     // the cone over a cell of the cube's face has three times the volume of its part

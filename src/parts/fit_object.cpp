@@ -5,6 +5,7 @@
 #include "observe/sheets.h"
 #include "parts/outline_gaps.h"
 #include "parts/split_view.h"
+#include "parts/union_score.h"
 #include "parts/whole_cloud.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
@@ -25,6 +26,9 @@ constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own er
 constexpr double MOST_UNEXPLAINED = 0.05;
 /** \brief Share of a vessel's points that may be its handle's. */
 constexpr double MOST_OF_HANDLE = 0.15;
+/** \brief Share of a vessel's surface that has points: between a table's legs are none.
+ */
+constexpr double MOSTLY = 0.8;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief Things are no superquadrics: their surface's distance to the best one, over
@@ -72,7 +76,8 @@ TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
 /** \brief A vessel seen from all round, and its handle. \return whether it explains the
  * cloud: a bottle's body is a vessel as well, its neck is no handle */
 bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
-  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL)
+  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL ||
+      covered(context, pieces[0].fit.fit.model) < MOSTLY)
     return false;
   // not what points on both sides of its wall seemed to have
   const double noise = context.noise;

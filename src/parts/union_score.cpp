@@ -2,6 +2,7 @@
 #include "parts/union_score.h"
 
 #include "parts/exposed_area.h"
+#include "util/point_grid.h"
 #include "view_problem/plane_cost.h"
 
 #include <algorithm>
@@ -20,6 +21,11 @@ constexpr double OUTLIER = 0.01;
 /** \brief Distance over the noise from which on a point costs the same, to the last
  * digit. */
 constexpr double OUTLYING = 9.0;
+/** \brief Of a point that others are spread about evenly, to the nearest of them, over
+ * their spacing: exp(-pi 2^2) is the chance of more. */
+constexpr double FARTHEST = 2.0;
+/** \brief Surfaces nearer to each other than so many times the noise are one. */
+constexpr double SIDE_BY_SIDE = 2.0;
 /** \brief A body may leave the box of the points by so much of the box's half diagonal
  * before its fit is repeated within the box, and where it then still does, it is no
  * part: points show all sides, and what is beyond them is empty. */
@@ -33,7 +39,7 @@ struct BodyTrace {
   Eigen::AlignedBox3d box;
   Eigen::VectorXd distances; ///< signed, of all points [m]
   SurfaceCells cells;
-  Eigen::ArrayXd half;     ///< sizes of the cells [m]
+  Eigen::ArrayXd half; ///< of the cells' width, on either side of another surface [m]
   double sticks_out = 0.0; ///< of the points' box [m]
 
   /** \brief Distances of the cells to another body, where those are near. */
@@ -80,7 +86,9 @@ std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
                          ? taperedDistances(model, points, OUTLYING * context.noise)
                          : surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
-  trace->half = 0.5 * trace->cells.areas.sqrt();
+  // one width for both of two surfaces that run side by side, or the area between them
+  // would depend on the sizes of their cells
+  trace->half = (0.5 * trace->cells.areas.sqrt()).min(SIDE_BY_SIDE * context.noise);
   trace->sticks_out =
       std::max((trace->box.max() - points.rowwise().maxCoeff()).maxCoeff(),
                (points.rowwise().minCoeff() - trace->box.min()).maxCoeff());
@@ -99,6 +107,19 @@ std::vector<TangentPlane> sidesOfBox(const ObservedObject& o) {
       sides.push_back(side);
     }
   return sides;
+}
+
+/** \brief Cost of the points' distances to the union, summed over all of them. */
+double costOf(const PieceContext& context, const std::vector<const Part*>& parts) {
+  // the smallest signed distance is that to the union
+  Eigen::ArrayXd distances =
+      Eigen::ArrayXd::Constant(context.observed.points.cols(), 1e300);
+  for (const Part* part : parts)
+    distances = distances.min(part->trace->distances.array());
+  const Eigen::ArrayXd z = distances / context.noise;
+  return -2.0 * (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER))
+                    .log()
+                    .sum();
 }
 
 } // namespace
@@ -125,18 +146,6 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
   }
 }
 
-double costOf(const PieceContext& context, const std::vector<const Part*>& parts) {
-  // the smallest signed distance is that to the union
-  Eigen::ArrayXd distances =
-      Eigen::ArrayXd::Constant(context.observed.points.cols(), 1e300);
-  for (const Part* part : parts)
-    distances = distances.min(part->trace->distances.array());
-  const Eigen::ArrayXd z = distances / context.noise;
-  return -2.0 * (((-0.5 * z.square()).max(-700.0).exp() + OUTLIER) / (1.0 + OUTLIER))
-                    .log()
-                    .sum();
-}
-
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
   const ObservedObject& o = context.observed;
   double parameters = 0.0, demand = 0.0, area = 0.0;
@@ -160,6 +169,22 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
           2.0 * std::log(area / (o.extent * o.extent))) *
              o.effective_points +
          parameters * std::log(1.0 + o.effective_points) + demand;
+}
+
+double covered(const PieceContext& context, const Superquadric& body) {
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)
+    points.emplace_back(context.observed.points.col(i));
+  const SurfaceCells cells = surfaceCells(body);
+  const double area = cells.areas.sum();
+  // where points are spread evenly, hardly any place is farther from all than this
+  const double reach = FARTHEST * std::sqrt(area / double(points.size()));
+  const PointGrid grid(std::move(points), reach);
+  double beside = 0.0;
+  for (Eigen::Index i = 0; i < cells.areas.size(); ++i)
+    if (grid.anyNear(cells.middles.col(i), reach))
+      beside += cells.areas[i];
+  return beside / area;
 }
 
 bool assignPoints(const PieceContext& context, std::vector<Part>& parts) {

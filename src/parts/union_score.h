@@ -26,10 +26,6 @@ void traceAgain(const PieceContext& context, Part& part);
 /** \brief Signed distance of an observed point to a part's body [m]. */
 [[nodiscard]] double distanceOf(const Part& part, int column);
 
-/** \brief Cost of the points' distances to the union, summed over all of them. */
-[[nodiscard]] double costOf(const PieceContext& context,
-                            const std::vector<const Part*>& parts);
-
 /** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price;
  * smaller is better.
  *
@@ -37,6 +33,9 @@ void traceAgain(const PieceContext& context, Part& part);
  * costs as much as points without a surface. */
 [[nodiscard]] double scoreOf(const PieceContext& context,
                              const std::vector<const Part*>& parts);
+
+/** \brief Share of a body's surface that has points of the cloud beside it. */
+[[nodiscard]] double covered(const PieceContext& context, const Superquadric& body);
 
 /** \brief Gives each point to the part with the nearest surface; a part keeps what
  * noise cannot tell. \return whether a point changed its part and no part lost nearly

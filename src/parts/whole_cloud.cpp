@@ -22,8 +22,6 @@ constexpr double QUICK_SLACK = 60.0;
 /** \brief Steps that are taken although they do not pay: one cut of a handle with two
  * corners, or of a table with legs at its corners, helps little. */
 constexpr int PATIENCE = 2;
-/** \brief Cost per point, its area's share apart, from which on that is worth while. */
-constexpr double POOR = 1.5;
 constexpr double OFF = 4.0; ///< noise that a point lies off a body it is not of
 
 /** \brief Parts that may take another's place, quickly fitted. */
@@ -67,12 +65,6 @@ private:
     for (const Part& p : way.parts)
       parts.push_back(&p);
     return scoreOf(context_, parts);
-  }
-  double misfit(const Description& d) const {
-    std::vector<const Part*> parts;
-    for (const Member& m : d.members)
-      parts.push_back(&m.part);
-    return costOf(context_, parts) / double(context_.observed.points.cols());
   }
   std::vector<Way> proposals(const Part& part) const;
   void findWays(Description& d, std::size_t k) const;
@@ -227,12 +219,17 @@ Description WholeSearch::step(Description& d) const {
     }
     tries[i].score = score(members);
   });
+  double least = 1e299;
+  for (const Description& t : tries)
+    least = std::min(least, t.score);
+  parallelFor(tries.size(), threads_, [&](std::size_t i) {
+    if (tries[i].score < least + QUICK_SLACK)
+      settle(tries[i]);
+  });
   Description best;
   for (Description& t : tries)
     if (t.score < best.score)
       best = std::move(t);
-  if (best.score < 1e299)
-    settle(best);
   return best;
 }
 
@@ -262,7 +259,7 @@ bool WholeSearch::mergeOnce(Description& d) const {
       tries[t].score = 1e300;
       return;
     }
-    fitPart(context_, tries[t].members[merged[t]].part, Effort::AGAIN);
+    fitPart(context_, tries[t].members[merged[t]].part, Effort::FULL);
     settle(tries[t]);
   });
   for (Description& t : tries)
@@ -293,7 +290,7 @@ std::vector<Piece> WholeSearch::run(Piece whole) {
     if (exactly_ || worth(now) < worth(best)) {
       best = now;
       idle = 0;
-    } else if (++idle >= (misfit(now) > POOR ? PATIENCE : 1))
+    } else if (++idle >= PATIENCE)
       break;
   }
   while (!exactly_ && best.members.size() > 1 && mergeOnce(best)) {
