@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Things told apart: superpixels joined to patches where nothing speaks against it,
-// patches to things where the evidence is for one thing.
+// Things told apart (M30): superpixels joined to patches where nothing speaks against
+// it, patches to things where the evidence is for one thing.
 #include "scene/segment_scene.h"
 
 #include "scene/patches.h"
