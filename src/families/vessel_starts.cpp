@@ -10,7 +10,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double CUT = 0.02;    ///< share of the points beyond an extent's end
+constexpr double CUT = 0.02; ///< share of the points beyond an extent's end
 
 /** \brief Profiles of household vessels: cup, pot or plate, bowl. */
 struct Kind {

@@ -50,6 +50,8 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
     parameters += piece.fit.chosen.parameters;
     if (bodies.back().isTapered())
       demand += TAPER;
+    if (bodies.back().isBent())
+      demand += BENT;
   }
   double cost = 0.0;
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
