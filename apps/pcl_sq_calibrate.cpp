@@ -4,6 +4,7 @@
 #include "command_line/value_checks.h"
 #include "files/files.h"
 #include "files/image_file.h"
+#include "pcl_sq/stereo/stereo_calibration.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -37,8 +38,8 @@ struct Views {
   Corners left, right;
 };
 
-struct Calibration {
-  cv::Mat M1, D1, M2, D2, R, T, E, F, R1, R2, P1, P2, Q;
+struct Calibration : pcl_sq::RawStereoCameras {
+  cv::Mat E, F, Q;
   double rms = 0.0, rms_left = 0.0, rms_right = 0.0; ///< reprojection [px]
   double row_error = 0.0; ///< mean difference of rows after rectification [px]
 };
@@ -206,20 +207,9 @@ Calibration calibrate(const Views& views, bool rational) {
       c.F,
       cv::CALIB_USE_INTRINSIC_GUESS | flags,
       cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 200, 1e-7));
-  cv::stereoRectify(c.M1,
-                    c.D1,
-                    c.M2,
-                    c.D2,
-                    views.size,
-                    c.R,
-                    c.T,
-                    c.R1,
-                    c.R2,
-                    c.P1,
-                    c.P2,
-                    c.Q,
-                    cv::CALIB_ZERO_DISPARITY,
-                    0.0);
+  c.width = views.size.width;
+  c.height = views.size.height;
+  c.Q = pcl_sq::rectifyPinholes(c);
   c.row_error = rowError(views, c);
   return c;
 }

@@ -105,7 +105,9 @@ bool fitLine(const std::string& path,
   std::string sentence;
   try {
     app::LoadedCloud input;
-    line = toJson(fit(path, options, input).file, -1);
+    const app::ModelResult result = fit(path, options, input);
+    app::printNotes(result, path);
+    line = toJson(result.file, -1);
     return true;
   } catch (const std::exception& error) {
     sentence = app::sentenceOf(error);
@@ -197,6 +199,7 @@ int main(int argc, char** argv) {
                      "a model. Clouds in parallel");
         app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
+        app::addCoverageOptions(cli, arguments.options);
         cli.add_option("--grasps",
                        arguments.grasps,
                        "Number of ranked grasps to add to the model file")

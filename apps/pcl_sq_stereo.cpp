@@ -7,7 +7,9 @@
 #include "options/model_options.h"
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "report/summary.h"
+#include "stereo/hand_over.h"
 #include "stereo/panel.h"
+#include "stereo/stereo_cloud.h"
 #include "stereo/stereo_front.h"
 
 #include <nlohmann/json.hpp>
@@ -21,10 +23,6 @@ using namespace pcl_sq;
 using namespace pcl_sq::app;
 
 namespace {
-
-/** \brief Noise and dilation of an outline that was found: images are cut along edges
- * that are blurred over about three pixels [px]. */
-constexpr double FOUND_OUTLINE = 1.5, FOUND_DILATION = 1.0;
 
 struct Outputs {
   std::string cloud, object_cloud, disparity, panel, mask, histogram;
@@ -72,30 +70,6 @@ void writeCloud(const std::string& path,
                 const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
   writeOutput(path,
               formatOf(path, ".pcd") == ".ply" ? plyBytes(cloud) : pcdBytes(cloud));
-}
-
-/** \brief The stereo cloud in the programs' point type; only \a keep's points stay
- * finite, all of them if it is null. */
-LoadedCloud toLoadedCloud(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
-                          const pcl::Indices* keep) {
-  constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
-  LoadedCloud result;
-  result.has_color = true;
-  result.cloud.reset(new pcl::PointCloud<pcl::PointXYZRGBA>);
-  pcl::copyPointCloud(cloud, *result.cloud);
-  if (keep != nullptr) {
-    std::vector<bool> kept(cloud.size(), false);
-    for (const pcl::index_t i : *keep)
-      kept[static_cast<std::size_t>(i)] = true;
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (!kept[i]) {
-        auto& p = (*result.cloud)[i];
-        p.x = p.y = p.z = NOTHING;
-      }
-  }
-  for (const auto& p : *result.cloud)
-    result.finite_points += std::isfinite(p.z) ? 1 : 0;
-  return result;
 }
 
 /** \brief Adds what the front half did to the model file. */
@@ -163,91 +137,6 @@ PanelInput panelInput(const FrontResult& front,
   return in;
 }
 
-/** \brief Takes the points under the object's mask that lie far from its box out of a
- * scene: false matches along the outline, with the depth of what is behind. */
-void dropStrays(const FrontResult& front, LoadedCloud& scene) {
-  constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
-  constexpr double REACH =
-      0.15; // of the box's diagonal: the aperture cuts thin ends off
-  const Eigen::Vector3d margin =
-      Eigen::Vector3d::Constant(REACH * front.region.sizes().norm());
-  RoiBox box = front.region;
-  box.min -= margin;
-  box.max += margin;
-  const auto* mask = front.segment.mask.ptr<std::uint8_t>();
-  for (std::size_t i = 0; i < scene.cloud->size(); ++i) {
-    auto& p = (*scene.cloud)[i];
-    if (mask[i] != 0 && std::isfinite(p.z) &&
-        !box.contains(p.getVector3fMap().cast<double>())) {
-      p.x = p.y = p.z = NOTHING;
-      --scene.finite_points;
-    }
-  }
-}
-
-/** \brief The pair's own noise as that of its points: Z^2 / (f b) a pixel. */
-void tellNoise(const StereoResult& stereo, ViewOptions& view) {
-  if (stereo.disparity_sigma.empty())
-    return;
-  view.correlation = stereo.correlation;
-  const double per_pixel = 1.0 / (stereo.intrinsics.fx * stereo.intrinsics.baseline);
-  const auto* sigma = stereo.disparity_sigma.ptr<float>();
-  view.noise.resize(static_cast<Eigen::Index>(stereo.cloud->size()));
-  for (Eigen::Index i = 0; i < view.noise.size(); ++i) {
-    const auto z = double((*stereo.cloud)[static_cast<std::size_t>(i)].z);
-    view.noise[i] = std::isfinite(z)
-                        ? static_cast<float>(z * z * per_pixel * double(sigma[i]))
-                        : 1.0F;
-  }
-}
-
-/** \brief Tells the model half what the images gave. The best mode looks at the whole
- * scene through the outline, the paper's chain at the object's points in their box. */
-void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model) {
-  const bool painted = !model.mask.empty();
-  model.roi.clear();
-  model.mask.clear();
-  const CameraIntrinsics& k = front.stereo.intrinsics;
-  model.intrinsics = {k.fx, k.fy, k.cx, k.cy};
-  if (!whole_scene) {
-    if (model.box.empty())
-      for (const Eigen::Vector3d& corner : {front.region.min, front.region.max})
-        model.box.insert(model.box.end(), corner.data(), corner.data() + 3);
-    return;
-  }
-  tellNoise(front.stereo, model.estimation.view);
-  if (!painted) { // what colours and depth find is no painted mask
-    model.estimation.view.mask_sigma = FOUND_OUTLINE;
-    model.estimation.view.mask_dilation = FOUND_DILATION;
-  }
-  const cv::Mat& mask = front.segment.mask;
-  if (mask.empty()) {
-    model.roi = {front.rect.x, front.rect.y, front.rect.width, front.rect.height};
-    return;
-  }
-  CellMask& cells = model.estimation.view.mask;
-  cells = CellMask(mask.cols, mask.rows);
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x)
-      cells.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
-}
-
-/** \brief Refuses what fills but a piece of the box that was drawn around the object,
- * where no outline tells them apart. */
-void requireBoxFilled(const FrontResult& front, const ModelResult& result) {
-  constexpr double LEAST = 0.4;
-  const CellMask& pixels = result.report.view.pixels;
-  if (!front.segment.mask.empty() || pixels.cells.empty())
-    return;
-  const double share = double(boundingRect(pixels).area()) /
-                       (double(front.rect.width) * double(front.rect.height));
-  if (share < LEAST)
-    throw Failure("what was found in the box fills " +
-                  std::to_string(std::lround(100.0 * share)) +
-                  " % of it only, so it is not what the box was drawn around; give a "
-                  "mask of the object, or more texture to the pair.");
-}
-
 void writeFront(const FrontResult& front, const Outputs& outputs) {
   const StereoIntrinsics& k = front.stereo.intrinsics;
   if (!outputs.disparity.empty())
@@ -275,6 +164,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
       front_options.matcher.value_or(best ? StereoMatcher::SGBM : StereoMatcher::BM);
   front_options.stereo.refine = front_options.refine.value_or(best);
   front_options.mask = model.mask;
+  const bool hinted = !model.roi.empty() || !model.mask.empty() || !model.box.empty() ||
+                      !front_options.click.empty() || !front_options.color.empty();
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
   for (const std::string& input :
@@ -307,6 +198,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   line.clear();
   if (best)
     requireBoxFilled(front, result);
+  if (best && !hinted)
+    requireNoDoubt(result);
   printNotes(result);
   describeFront(front_options, front, result.file);
   writeOutputs(object, result, model);

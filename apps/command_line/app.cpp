@@ -122,7 +122,7 @@ bool quiet() {
   return quiet_requested;
 }
 
-void note(const std::string& sentence) {
+void note(const std::string& sentence, const std::string& first) {
   static std::mutex mutex;
   static std::set<std::string> told;
   const std::lock_guard<std::mutex> lock(mutex);
@@ -130,7 +130,9 @@ void note(const std::string& sentence) {
     return;
   if (isatty(STDERR_FILENO) != 0) // a stage may stand on the line
     std::cerr << "\r\033[K";
-  std::cerr << program_name << ": note: " << printable(sentence) << ".\n";
+  std::cerr << program_name
+            << ": note: " << (first.empty() ? "" : printable(first) + ": ")
+            << printable(sentence) << ".\n";
 }
 
 } // namespace pcl_sq::app

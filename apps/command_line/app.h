@@ -44,8 +44,9 @@ int run(int argc,
 bool quiet();
 
 /** \brief Tells the user something that is no failure, such as a fall-back: one line on
- * stderr, each sentence once; silent with -q. May be called from any thread. */
-void note(const std::string& sentence);
+ * stderr, each sentence once; silent with -q. May be called from any thread.
+ * \param[in] first where it holds, of several files; the others are not told again */
+void note(const std::string& sentence, const std::string& first = {});
 
 /** \brief The stage of long work on stderr, such as "fitting ..."; silent when stderr
  * is no terminal or -q was given. Gone when the object is. May be called from any

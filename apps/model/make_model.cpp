@@ -137,7 +137,8 @@ Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   return selection;
 }
 
-/** \brief Table, up and the camera's place, as far as they are known. */
+} // namespace
+
 void tellFrame(const LoadedCloud& input,
                const ModelOptions& options,
                const std::optional<TableModel>& removed,
@@ -162,7 +163,25 @@ void tellFrame(const LoadedCloud& input,
   }
 }
 
-} // namespace
+void tellModel(const LoadedCloud& input,
+               const std::string& input_path,
+               const MultiSuperquadric& model,
+               ModelResult& result) {
+  ModelFile& file = result.file;
+  file.model = model;
+  for (const PartReport& part : result.report.parts)
+    if (part.model_part >= 0)
+      file.statistics.push_back({part.fit.points,
+                                 part.fit.distortion,
+                                 part.fit.rms_distance,
+                                 toString(part.fit.termination)});
+  file.distortion = result.report.distortion;
+  file.rms_distance = result.report.rms_distance;
+  file.frame = input.cloud->header.frame_id;
+  file.input_path = input_path;
+  file.input_points = input.cloud->size();
+  file.finite_points = input.finite_points;
+}
 
 ModelResult makeNearModel(const LoadedCloud& input,
                           const std::string& input_path,
@@ -199,21 +218,7 @@ ModelResult makeNearModel(const LoadedCloud& input,
   result.report.notes.insert(
       result.report.notes.begin(), input.notes.begin(), input.notes.end());
   tellFrame(input, options, selection.table, result);
-
-  ModelFile& file = result.file;
-  file.model = model;
-  for (const PartReport& part : result.report.parts)
-    if (part.model_part >= 0)
-      file.statistics.push_back({part.fit.points,
-                                 part.fit.distortion,
-                                 part.fit.rms_distance,
-                                 toString(part.fit.termination)});
-  file.distortion = result.report.distortion;
-  file.rms_distance = result.report.rms_distance;
-  file.frame = input.cloud->header.frame_id;
-  file.input_path = input_path;
-  file.input_points = input.cloud->size();
-  file.finite_points = input.finite_points;
+  tellModel(input, input_path, model, result);
   timings.insert(
       timings.end(), result.report.timings_ms.begin(), result.report.timings_ms.end());
   if (options.taper.value_or(false))

@@ -45,6 +45,9 @@ void addTaperOption(CLI::App& cli, ModelOptions& options);
 /** \brief Refuses what cannot respect a taper. \throw UsageError */
 void checkTaper(const ModelOptions& options);
 
+/** \brief Whether a cloud shows its object from all round or from one side. */
+void addCoverageOptions(CLI::App& cli, ModelOptions& options);
+
 /** \brief Options of the best mode: preset, view, number of parts. */
 void addViewOptions(CLI::App& cli, ModelOptions& options);
 
@@ -78,6 +81,19 @@ ModelResult makeNearModel(const LoadedCloud& input,
                           const std::string& input_path,
                           const ModelOptions& options,
                           double load_ms);
+
+/** \brief Tells the result of table, up and the camera's place, as far as they are
+ * known. \param[in] removed the table that the object was taken off */
+void tellFrame(const LoadedCloud& input,
+               const ModelOptions& options,
+               const std::optional<TableModel>& removed,
+               ModelResult& result);
+
+/** \brief Tells the result's file of the model and of what its report says of it. */
+void tellModel(const LoadedCloud& input,
+               const std::string& input_path,
+               const MultiSuperquadric& model,
+               ModelResult& result);
 
 /** \brief Gives the model's parts their tapers, where the data demand any.
  * \return whether they do \throw Failure if the points allow no fit */

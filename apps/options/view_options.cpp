@@ -31,6 +31,18 @@ CellMask maskOf(const std::string& path) {
 
 } // namespace
 
+void addCoverageOptions(CLI::App& cli, ModelOptions& options) {
+  cli.add_flag_callback(
+      "--complete",
+      [&options] { options.estimation.view.coverage = Coverage::COMPLETE; },
+      "The points show the object from all round; else told by the points");
+  cli.add_flag_callback(
+      "--one-sided",
+      [&options] { options.estimation.view.coverage = Coverage::ONE_SIDED; },
+      "The points show one side of it, from a place that is guessed where it is not "
+      "given");
+}
+
 void addViewOptions(CLI::App& cli, ModelOptions& options) {
   auto preset = std::make_shared<std::string>();
   cli.add_option(
@@ -43,12 +55,12 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
   cli.add_option("--parts",
                  options.estimation.object_fit.parts,
                  "Number of superquadrics; 0: found")
-      ->check(wholeNumber(0, 16))
+      ->check(wholeNumber(0, 64))
       ->capture_default_str();
   cli.add_option("--max-parts",
                  options.estimation.object_fit.max_parts,
                  "Largest number of superquadrics that is looked for")
-      ->check(wholeNumber(1, 16))
+      ->check(wholeNumber(1, 64))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_OPENCV
   cli.add_option("--mask", options.mask, "Object's pixels as PNG (organized clouds)")

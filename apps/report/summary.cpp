@@ -95,9 +95,9 @@ void printSummary(const ModelResult& result) {
   std::printf("\n");
 }
 
-void printNotes(const ModelResult& result) {
+void printNotes(const ModelResult& result, const std::string& cloud) {
   for (const std::string& sentence : result.report.notes)
-    note(sentence);
+    note(sentence, cloud);
 }
 
 std::string wordsFor(const std::string& stage) {
@@ -111,6 +111,8 @@ std::string wordsFor(const std::string& stage) {
       {"taper", "fitting tapers"},
       {"evaluate", "measuring"},
       {"grasp_points", "finding grasp points"},
+      {"look", "looking at the scene"},
+      {"table", "finding the table"},
       {"match", "matching the images"},
       {"segment", "finding the object in the image"},
       {"roi", "finding the object in depth"}};

@@ -21,8 +21,9 @@ ObjectSize sizeOf(const ModelResult& result);
 /** \brief The result for people, on stdout. */
 void printSummary(const ModelResult& result);
 
-/** \brief The fall-backs that the estimation took, on stderr. */
-void printNotes(const ModelResult& result);
+/** \brief The fall-backs that the estimation took, on stderr.
+ * \param[in] cloud whose they are, where there are several */
+void printNotes(const ModelResult& result, const std::string& cloud = {});
 
 /** \brief A stage of the work in plain words: "fitting". */
 std::string wordsFor(const std::string& stage);

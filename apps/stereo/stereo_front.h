@@ -48,8 +48,16 @@ struct FrontResult {
 /** \brief Adds the options to a program, but for those it shares with the model half:
  * mask and intrinsics. */
 void addFrontOptions(CLI::App& cli, FrontOptions& options);
+/** \brief Those of them that say how images become a cloud. */
+void addPairOptions(CLI::App& cli, FrontOptions& options);
 /** \brief Refuses contradictions. \throw UsageError */
 void checkFrontOptions(const FrontOptions& options, const std::vector<int>& roi);
+
+/** \brief The same for addPairOptions(). \throw UsageError */
+void checkPairOptions(const FrontOptions& options);
+
+/** \brief From the images to the cloud; there is no object yet. \throw Failure */
+FrontResult readViews(const FrontOptions& options);
 
 /** \brief From the images to the object's points.
  * \param[in] roi box in the image: x, y, w, h, or empty \throw Failure */

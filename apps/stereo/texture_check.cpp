@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq::app {
@@ -18,7 +19,8 @@ cv::Mat grey(const cv::Mat& image) {
 
 } // namespace
 
-double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
+TexturedShare
+texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
   constexpr double SHARED = 0.5;
   cv::Mat inner;
   cv::erode(mask,
@@ -30,7 +32,7 @@ double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block)
             cv::Scalar(0));
   const int count = cv::countNonZero(inner);
   if (count < block * block)
-    return 1.0;
+    return {};
   const cv::Mat& disparity = stereo.disparity;
   cv::Mat x(disparity.size(), CV_32F), y(disparity.size(), CV_32F);
   cv::Mat known = disparity == disparity; // 0 or 255
@@ -58,7 +60,9 @@ double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block)
   cv::Mat deviations;
   cv::sqrt(cv::max(variances, 0.0), deviations);
   const cv::Mat shared = covariance > SHARED * deviations;
-  return static_cast<double>(cv::countNonZero(shared & known & inner)) / count;
+  const double matched = cv::countNonZero(known & inner);
+  const double textured = cv::countNonZero(shared & known & inner);
+  return {textured / count, textured / std::max(matched, 1.0)};
 }
 
 } // namespace pcl_sq::app

@@ -5,6 +5,12 @@
 
 namespace pcl_sq::app {
 
+/** \brief How much was matched by texture. */
+struct TexturedShare {
+  double of_pixels = 1.0;  ///< of the object's
+  double of_matches = 1.0; ///< of its pixels that have a disparity
+};
+
 /** \brief Share of the object's inner pixels that were matched by their texture.
  *
  * Inner are those whose window lies on the object alone; at its outline the texture of
@@ -13,6 +19,6 @@ namespace pcl_sq::app {
  * stronger than what they do.
  * \param[in] mask the object's pixels \param[in] block side of a window [px]
  * \return 0 to 1; 1 for what has hardly any inner pixel, for it cannot be judged */
-double texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block);
+TexturedShare texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block);
 
 } // namespace pcl_sq::app

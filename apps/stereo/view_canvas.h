@@ -40,10 +40,10 @@ public:
   void addWireBox(const RoiBox& box, const cv::Vec3b& color, int width);
 
   const cv::Mat& picture() const { return picture_; }
+  /** \brief Pixel and depth of a point. */
+  Eigen::Vector3d project(const Eigen::Vector3d& point) const;
 
 private:
-  /** \brief Pixel and depth. */
-  Eigen::Vector3d project(const Eigen::Vector3d& point) const;
   template <typename ColorOf>
   void drawMesh(const TriangleMesh& mesh, const ColorOf& color_of, double opacity);
   void fillTriangle(const Eigen::Vector3d* corners,

@@ -9,8 +9,8 @@ namespace pcl_sq {
 
 /** \brief Settings of fitObject(). */
 struct PCL_SQ_EXPORTS ObjectFitOptions {
-  int max_parts = 6;         ///< largest number of parts that is looked for, [1, 16]
-  int parts = 0;             ///< number of parts; 0: found, [0, 16]
+  int max_parts = 6;         ///< largest number of parts that is looked for, [1, 64]
+  int parts = 0;             ///< number of parts; 0: found, [0, 64]
   int silhouette_lines = 48; ///< per part, [8, 360]
   ViewFitOptions fit;
 

@@ -19,6 +19,13 @@ struct TableModel : TablePlane {
   double height(const Eigen::Vector3d& p) const { return signedDistance(p); }
 };
 
+/** \brief From how many sides bare points show their object. */
+enum class Coverage {
+  AUTOMATIC, ///< told by the points
+  COMPLETE,  ///< from all round: there is no camera that some sides are hidden from
+  ONE_SIDED  ///< from one place, which is guessed where it is not given
+};
+
 /** \brief What is known of the view besides the cloud. Everything is optional. */
 struct PCL_SQ_EXPORTS ViewOptions {
   /** \brief Intrinsics of the camera the organized cloud comes from; without it they
@@ -26,8 +33,15 @@ struct PCL_SQ_EXPORTS ViewOptions {
   std::optional<PinholeCamera> camera;
   /** \brief Pixels of the object and nothing else; empty: found in the depth. */
   CellMask mask;
+  /** \brief Pixels of other things in an organized cloud: where they are not clearly
+   * behind the object, its outline beside them is theirs, and what they hide is not
+   * free. Empty: what hides the object is told by the depth alone. */
+  CellMask others;
   /** \brief The camera's place in the cloud's frame [m]. */
   std::optional<Eigen::Vector3d> viewpoint;
+  /** \brief Whether the points are those of one view; COMPLETE makes no use of a
+   * camera, a mask or a viewpoint. */
+  Coverage coverage = Coverage::AUTOMATIC;
   /** \brief Direction away from the ground in the cloud's frame, of any length: a table
    * lies across it. Without it an image's top is taken to be up. */
   std::optional<Eigen::Vector3d> up;

@@ -2,6 +2,7 @@
 // An object as bare points: with a viewpoint, the outline is that of the points as the
 // camera sees them.
 #include "observe/observe_parts.h"
+#include "observe/sheets.h"
 #include "sensor/camera_pose.h"
 #include "sensor/noise.h"
 
@@ -145,10 +146,16 @@ bool observeBare(Observation& o, std::string& why) {
     out.foot = standingHeight(
         *out.table,
         o.view.viewpoint ? (out.points.col(0) - *o.view.viewpoint).norm() : 0.0);
+  if (o.view.coverage == Coverage::COMPLETE)
+    return true;
   std::optional<Eigen::Vector3d> viewpoint = o.view.viewpoint;
   const auto above_table = [&out](const Eigen::Vector3d& place) {
     return !out.table || out.table->height(place) > 0.0;
   };
+  const bool one_sided = o.view.coverage == Coverage::ONE_SIDED;
+  // the two sides of a pan's bottom look like one from above, but not from nearby
+  if (!viewpoint && !one_sided && hasTwoSides(out.points))
+    return true;
   if (!viewpoint && above_table(Eigen::Vector3d::Zero()) && isCameraFrame(out.points)) {
     viewpoint = Eigen::Vector3d::Zero();
     out.notes.push_back("no viewpoint is given; the points lie before the origin "
@@ -157,7 +164,7 @@ bool observeBare(Observation& o, std::string& why) {
   }
   out.viewpoint_known = bool(viewpoint);
   if (!viewpoint) {
-    viewpoint = guessViewpoint(out.points);
+    viewpoint = guessViewpoint(out.points, one_sided);
     if (viewpoint && !above_table(*viewpoint))
       viewpoint.reset();
   }

@@ -128,7 +128,7 @@ bool observeImage(Observation& o, std::string& why) {
     const int c = y * o.width + x;
     if (!has_mask && out.table && o.finite(c) && out.table->height(o.at(c)) < floor)
       return true;
-    return occluded(o, patch, x, y);
+    return besideAnother(o, patch, x, y) || occluded(o, patch, x, y);
   });
   return true;
 }

@@ -3,6 +3,8 @@
 #include "sensor/camera_pose.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace pcl_sq {
 
@@ -18,6 +20,8 @@ bool ViewOptions::isValid(std::string* why) const {
     return false;
   if (mask.cells.size() != std::size_t(mask.width) * std::size_t(mask.height))
     return refuse("the mask must hold width * height pixels");
+  if (others.cells.size() != std::size_t(others.width) * std::size_t(others.height))
+    return refuse("the mask of others must hold width * height pixels");
   if (viewpoint && !viewpoint->allFinite())
     return refuse("the viewpoint must be finite");
   if (up && !(up->allFinite() && up->norm() > 1e-9))
@@ -106,14 +110,11 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
   return e;
 }
 
-namespace {
-
-/** \brief The camera of an organized cloud, its intrinsics those that are known. */
-bool findImage(const CloudPoints& points,
-               int width,
-               int height,
-               const ViewOptions& view,
-               PinholeCamera& camera) {
+bool detail::findImage(const CloudPoints& points,
+                       int width,
+                       int height,
+                       const ViewOptions& view,
+                       PinholeCamera& camera) {
   const bool found = findCamera(points, width, height, view.viewpoint, camera);
   if (!view.camera)
     return found;
@@ -124,6 +125,36 @@ bool findImage(const CloudPoints& points,
   if (!elsewhere)
     camera = *view.camera;
   return true;
+}
+
+namespace {
+
+/** \brief Tells of a viewpoint that is not where an image of points was taken from, by
+ * a tenth of the distance to its middle or more: nearer, it is an estimate of the same.
+ */
+void noteOtherViewpoint(const CloudPoints& points,
+                        const PinholeCamera& camera,
+                        const ViewOptions& view,
+                        std::vector<std::string>& notes) {
+  constexpr double SAME = 0.1;
+  if (!view.viewpoint)
+    return;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (points.col(i).allFinite()) {
+      sum += points.col(i).cast<double>();
+      ++count;
+    }
+  const double distance = (sum / std::max(1, count) - camera.center).norm();
+  if ((*view.viewpoint - camera.center).norm() < SAME * distance)
+    return;
+  std::ostringstream sentence;
+  sentence
+      << std::fixed << std::setprecision(3) << "the cloud is an image taken from ("
+      << camera.center.x() << ", " << camera.center.y() << ", " << camera.center.z()
+      << ") m, which is not the viewpoint that was given; that of the image counts";
+  notes.push_back(sentence.str());
 }
 
 } // namespace
@@ -152,13 +183,18 @@ bool observeObject(const CloudPoints& points,
                 std::to_string(view.mask.height) + " pixels, the cloud " +
                 std::to_string(width) + " x " + std::to_string(height) +
                 "; give the mask of the same image");
+  if (!view.others.cells.empty() &&
+      (view.others.width != width || view.others.height != height))
+    return fail("the mask of others has another size than the cloud; give the mask of "
+                "the same image");
   PinholeCamera camera;
-  if (!organized || !findImage(points, width, height, view, camera)) {
+  const bool complete = view.coverage == Coverage::COMPLETE;
+  if (!organized || complete || !findImage(points, width, height, view, camera)) {
     if (organized && has_mask)
       return fail(
           "the cloud is no pinhole image, so that its mask cannot be used; give "
           "the intrinsics or leave out the mask");
-    if (organized)
+    if (organized && !complete)
       observed.notes.push_back(
           "the cloud is no image of a camera, although it has rows, so its outline is "
           "not used; give the camera's intrinsics if it is one");
@@ -166,6 +202,7 @@ bool observeObject(const CloudPoints& points,
     return observeBare(o, reason) || fail(reason);
   }
   observed.viewpoint_known = true;
+  noteOtherViewpoint(points, camera, view, observed.notes);
   const CameraPose pose(camera);
   observed.camera = camera;
   if (pose.isIdentity()) {

@@ -6,6 +6,14 @@
 
 namespace pcl_sq::detail {
 
+/** \brief The camera of an organized cloud, its intrinsics those that are known.
+ * \return false if the cloud is no pinhole image */
+[[nodiscard]] bool findImage(const CloudPoints& points,
+                             int width,
+                             int height,
+                             const ViewOptions& view,
+                             PinholeCamera& camera);
+
 [[nodiscard]] bool observeImage(Observation& o, std::string& why);
 [[nodiscard]] bool observeBare(Observation& o, std::string& why);
 
@@ -27,6 +35,9 @@ void findFreeSpace(Observation& o, const CellRect& box, int margin);
 void findGap(Observation& o, const CellRect& box);
 /** \brief Whether something nearer than the object hides it beyond a contour pixel. */
 bool occluded(const Observation& o, const DepthPatch& patch, int x, int y);
+/** \brief Whether a pixel of the outline lies beside one of ViewOptions::others that is
+ * not clearly behind the object: there the other's outline is seen, or both touch. */
+bool besideAnother(const Observation& o, const DepthPatch& patch, int x, int y);
 
 /** \brief Checks a table against the object's points; drops it with a note if they lie
  * below it. */

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outline [px]
 constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
+constexpr int BESIDE = 2;       ///< pixels between an outline and another thing's
 constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
 
 } // namespace
@@ -33,6 +34,34 @@ bool occluded(const Observation& o, const DepthPatch& patch, int x, int y) {
     return false;
   const double mine = median(own);
   return beside < mine - std::max(0.03 * mine, 0.3 * o.out.extent);
+}
+
+bool besideAnother(const Observation& o, const DepthPatch& patch, int x, int y) {
+  if (o.view.others.cells.empty())
+    return false;
+  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
+  std::array<double, WINDOW> depths, spare;
+  std::size_t others = 0;
+  bool near = false;
+  for (int dy = -OCCLUDER_REACH; dy <= OCCLUDER_REACH; ++dy)
+    for (int dx = -OCCLUDER_REACH; dx <= OCCLUDER_REACH; ++dx) {
+      if (!o.view.others(x + dx, y + dy))
+        continue;
+      near = near || (std::abs(dx) <= BESIDE && std::abs(dy) <= BESIDE);
+      const int c = (y + dy) * o.width + x + dx;
+      if (o.finite(c))
+        depths[others++] = double(o.points(2, c));
+    }
+  if (!near)
+    return false;
+  if (others == 0) // nothing is known of them
+    return true;
+  const double beside = orderStatistic(depths.data(), spare.data(), others, others / 2);
+  const std::size_t own = patch.ownAround(x, y, OCCLUDER_REACH, depths.data());
+  if (own == 0)
+    return true;
+  const double mine = orderStatistic(depths.data(), spare.data(), own, own / 2);
+  return beside < mine + standingHeight(o.out.table.value_or(TableModel{}), mine);
 }
 
 void findFreeSpace(Observation& o, const CellRect& box, int margin) {
@@ -56,7 +85,7 @@ void findFreeSpace(Observation& o, const CellRect& box, int margin) {
       const int c = y * o.width + x;
       // without a mask only a measured background counts; an occluder never does
       const bool known = o.finite(c);
-      if ((!known && !has_mask) || !beside(x, y))
+      if ((!known && (!has_mask || o.view.others(x, y))) || !beside(x, y))
         continue;
       if (!known || o.out.camera.depthOf(o.at(c)) > o.out.depth)
         o.out.free_space.emplace_back(x, y);

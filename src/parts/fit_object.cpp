@@ -154,8 +154,8 @@ double medianNoise(const ObservedObject& observed) {
 
 bool ObjectFitOptions::isValid(std::string* why) const {
   OptionCheck check(why);
-  check.inRange("max_parts", max_parts, 1, 16);
-  check.inRange("parts", parts, 0, 16);
+  check.inRange("max_parts", max_parts, 1, 64);
+  check.inRange("parts", parts, 0, 64);
   check.inRange("silhouette_lines", silhouette_lines, 8, 360);
   check.require(fit.precision.empty(),
                 "fit.precision is found by fitObject() and must be empty");

@@ -119,7 +119,8 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points) {
   return lookFrom(Eigen::Vector3d::Zero(), points).once;
 }
 
-std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all) {
+std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all,
+                                              bool one_sided) {
   // a few strays would put the middle anywhere
   const Eigen::Index n = all.cols(), cut = n / 50;
   Eigen::Vector3d low, high;
@@ -141,7 +142,8 @@ std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all) {
       points.col(kept++) = all.col(i);
   points.conservativeResize(3, kept);
   const auto some = points.leftCols(std::min(points.cols(), LOOKED_AT));
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), roundest = Eigen::Vector3d::Zero();
+  double most_bulge = -1e300;
   int passed = 0;
   for (int i = 0; i < DIRECTIONS; ++i) {
     // Fibonacci's spiral: about equally many everywhere on the sphere
@@ -154,7 +156,13 @@ std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all) {
       sum += direction;
       ++passed;
     }
+    if (look.bulge > most_bulge) {
+      most_bulge = look.bulge;
+      roundest = direction;
+    }
   }
+  if (one_sided)
+    return middle + FAR * extent * (sum.norm() > 1e-6 ? sum.normalized() : roundest);
   if (passed < FEWEST * DIRECTIONS || passed > MOST * DIRECTIONS ||
       !(sum.norm() > 1e-6))
     return std::nullopt;

@@ -44,6 +44,25 @@ bool sameProportions(const cv::Size& a, const cv::Size& b) {
 
 } // namespace
 
+cv::Mat rectifyPinholes(RawStereoCameras& c) {
+  cv::Mat Q;
+  cv::stereoRectify(c.M1,
+                    c.D1,
+                    c.M2,
+                    c.D2,
+                    {c.width, c.height},
+                    c.R,
+                    c.T,
+                    c.R1,
+                    c.R2,
+                    c.P1,
+                    c.P2,
+                    Q,
+                    cv::CALIB_ZERO_DISPARITY,
+                    0.0);
+  return Q;
+}
+
 StereoCalibration StereoCalibration::fromRectified(const StereoIntrinsics& intrinsics) {
   detail::checkIntrinsics(intrinsics);
   StereoCalibration result;
@@ -166,24 +185,8 @@ void StereoCalibration::prepareMaps(const cv::Size& size) {
   if (c.R1.empty() || c.R2.empty() || c.P1.empty() || c.P2.empty()) {
     if (c.fisheye)
       rectifyFisheyes(c, size);
-    else {
-      cv::Mat Q;
-      // alpha 0: only pixels that both cameras see
-      cv::stereoRectify(c.M1,
-                        c.D1,
-                        c.M2,
-                        c.D2,
-                        size,
-                        c.R,
-                        c.T,
-                        c.R1,
-                        c.R2,
-                        c.P1,
-                        c.P2,
-                        Q,
-                        cv::CALIB_ZERO_DISPARITY,
-                        0.0);
-    }
+    else
+      rectifyPinholes(c);
   }
   intrinsics_ = detail::fromProjections(c.P1, c.P2);
   intrinsics_.width = size.width;

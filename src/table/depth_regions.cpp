@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "table/depth_regions.h"
 
+#include "sensor/observation.h"
 #include "util/voxel_clusters.h"
 
 #include <algorithm>
@@ -86,6 +87,30 @@ double overlap(const CellRect& a, const CellRect& b) {
   return both / (a.area() + b.area() - both);
 }
 
+/** \brief The value that a share of others does not exceed. */
+double quantile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/** \brief Whether pixels float: a thing on a table is seen from its top down to its
+ * foot or to what hides that, and not in its upper half alone. */
+bool floats(const CloudPoints& points,
+            const TableModel& table,
+            const std::vector<int>& pixels) {
+  constexpr double STRAYS = 0.05, LOWEST = 0.5;
+  std::vector<double> heights, depths;
+  for (const int c : pixels) {
+    heights.push_back(table.height(points.col(c).cast<double>()));
+    depths.push_back(double(points(2, c)));
+  }
+  // what is lower counts as the table
+  const double lowest = standingHeight(table, quantile(depths, 0.5));
+  const double high = quantile(heights, 1.0 - STRAYS);
+  return quantile(heights, STRAYS) > lowest + LOWEST * high;
+}
+
 /** \brief Where a thing stands: the circle on the table that its width spans behind its
  * front. No other thing stands in it. */
 class Footprint {
@@ -128,13 +153,6 @@ private:
   static constexpr double STRAY = 0.01; ///< of pixels
   static constexpr double MARGIN = 0.1; ///< over the radius: few things are round
   static constexpr double MOST = 0.8;   ///< of a piece's pixels
-
-  static double quantile(std::vector<double>& values, double share) {
-    const auto place =
-        values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  }
 
   const CloudPoints& points_;
   const TableModel& table_;
@@ -203,19 +221,26 @@ DepthRange depthsOf(const std::vector<int>& pixels, const CloudPoints& points) {
 
 } // namespace
 
+std::vector<Region> regionsOf(const CloudPoints& points, const CellMask& above) {
+  Regions regions(points, above);
+  std::vector<Region> all;
+  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
+    if (r.pixels.size() >= std::size_t(MIN_PIECE))
+      all.push_back(std::move(r));
+  return all;
+}
+
 Region largestThing(const CloudPoints& points,
                     const CellMask& above,
                     const TableModel& table) {
-  Regions regions(points, above);
-  std::vector<Region> all;
+  const std::vector<Region> all = regionsOf(points, above);
   Region best;
-  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next()) {
+  for (const Region& r : all) {
     const bool better = r.cut() == best.cut() ? r.pixels.size() > best.pixels.size()
                                               : best.cut() || best.pixels.empty();
-    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && r.cutOnce() && better)
+    if (r.pixels.size() >= std::size_t(MIN_PIXELS) && r.cutOnce() && better &&
+        !floats(points, table, r.pixels))
       best = r;
-    if (r.pixels.size() >= std::size_t(MIN_PIECE))
-      all.push_back(std::move(r));
   }
   if (!best.pixels.empty())
     addPieces(all, points, above.width, table, best);
@@ -227,11 +252,7 @@ std::vector<int> thingOfBox(const CloudPoints& points,
                             const CellRect& box,
                             float size) {
   const int width = above.width;
-  Regions regions(points, above);
-  std::vector<Region> all;
-  for (Region r = regions.next(); !r.pixels.empty(); r = regions.next())
-    if (r.pixels.size() >= std::size_t(MIN_PIECE))
-      all.push_back(std::move(r));
+  std::vector<Region> all = regionsOf(points, above);
   std::vector<int> thing;
   double fit = MIN_OVERLAP;
   const auto merged = [&](const Region& r) {

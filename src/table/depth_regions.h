@@ -19,6 +19,11 @@ struct Region {
   bool cutOnce() const { return (sides & (sides - 1)) == 0; }
 };
 
+/** \brief All regions of at least a few pixels. \param[in] points in the camera's frame
+ */
+[[nodiscard]] std::vector<Region> regionsOf(const CloudPoints& points,
+                                            const CellMask& above);
+
 /** \brief The largest region that the image border does not cut, with its pieces; if
  * there is none, the largest that but one of its sides cuts.
  * \param[in] points in the camera's frame \param[in] above pixels above the table */

@@ -2,6 +2,7 @@
 #include "table/depth_regions.h"
 #include "table/table_search.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_sq {
@@ -10,17 +11,38 @@ namespace {
 
 constexpr std::size_t VOTERS = 6000; ///< points in which the table is looked for
 
-/** \brief Pixels that lie above a table, among all or some. */
-CellMask pixelsAbove(const TableModel& table,
-                     const CloudPoints& points,
-                     int width,
-                     int height,
-                     const std::vector<int>* within) {
+/** \brief The middle one of the depths: false matches may lie ten times as far. */
+double middleDepth(const CloudPoints& points, int width) {
+  std::vector<double> depths;
+  const auto total = static_cast<std::size_t>(points.cols());
+  for (std::size_t i = 0; i < total; i += detail::evenStep(total, width, VOTERS))
+    if (points.col(Eigen::Index(i)).allFinite())
+      depths.push_back(std::abs(double(points(2, Eigen::Index(i)))));
+  if (depths.empty())
+    return 1.0;
+  const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+} // namespace
+
+CellMask detail::pixelsAbove(const TableModel& table,
+                             const CloudPoints& points,
+                             int width,
+                             int height,
+                             const std::vector<int>* within) {
   CellMask above(width, height);
+  // the table's noise is that of its middle; what is farther errs more, by the square
+  // of its depth as triangulation does
+  const double depth = middleDepth(points, width);
   const auto look = [&](std::size_t i) {
     const Eigen::Vector3f p = points.col(Eigen::Index(i));
+    const double farther = std::max(1.0, double(p.z()) / depth);
+    TableModel there = table;
+    there.noise *= farther * farther;
     const auto standing =
-        static_cast<float>(detail::standingHeight(table, double(p.z())));
+        static_cast<float>(detail::standingHeight(there, double(p.z())));
     above.cells[i] = table.normal.cast<float>().dot(p) + float(table.offset) > standing;
   };
   if (within)
@@ -31,8 +53,6 @@ CellMask pixelsAbove(const TableModel& table,
       look(i);
   return above;
 }
-
-} // namespace
 
 bool findStandingObject(const CloudPoints& points,
                         int width,
@@ -61,17 +81,13 @@ Standing findInImage(const CloudPoints& points,
                      bool loose) {
   TableSearch search;
   const auto total = static_cast<std::size_t>(points.cols());
-  double depth = 0.0;
   for (std::size_t i = 0; i < total; i += evenStep(total, width, VOTERS))
-    if (points.col(Eigen::Index(i)).allFinite()) {
+    if (points.col(Eigen::Index(i)).allFinite())
       search.voters.push_back(points.col(Eigen::Index(i)).cast<double>());
-      depth += search.voters.back().z();
-    }
   if (search.voters.size() < 100)
     return {};
-  depth = std::abs(depth) / double(search.voters.size());
   search.points_a_voter = double(evenStep(total, width, VOTERS));
-  search.distance = 0.008 * depth;
+  search.distance = 0.008 * middleDepth(points, width);
   search.viewpoint = Eigen::Vector3d::Zero();
   search.up = view.up;
   search.table = view.table;

@@ -72,6 +72,13 @@ private:
  * the width of an image would make. */
 [[nodiscard]] std::size_t evenStep(std::size_t points, int width, std::size_t wanted);
 
+/** \brief Pixels that lie above a table, among all or some. */
+[[nodiscard]] CellMask pixelsAbove(const TableModel& table,
+                                   const CloudPoints& points,
+                                   int width,
+                                   int height,
+                                   const std::vector<int>* within = nullptr);
+
 /** \brief Finds table and thing in an organized cloud in its camera's frame.
  * \param[in] region pixels of a box around the thing, or nullptr: the largest thing
  * \param[in] size of that box over the depth

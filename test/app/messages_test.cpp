@@ -68,6 +68,24 @@ TEST(Messages, NotesAreToldOnceAndStandInTheModelFile) {
   EXPECT_EQ(quiet.err, "");
 }
 
+TEST(Messages, NotesOfSeveralCloudsNameTheFirstThatHasThem) {
+  const Folder folder;
+  const std::string text = xyzOf(visiblePoints(bottle(), 2000, 0.0005));
+  const std::string first = folder.write("a.xyz", text);
+  const std::string second = folder.write("b.xyz", text);
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {first, second, "--jsonl", "--threads", "1"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto notes =
+      nlohmann::json::parse(run.out.substr(0, run.out.find('\n')))["report"]["notes"];
+  ASSERT_FALSE(notes.empty()) << "the camera's place was guessed";
+  for (const auto& sentence : notes) {
+    EXPECT_EQ(count(run.err, "note: " + first + ": " + sentence.get<std::string>()), 1)
+        << run.err;
+    EXPECT_EQ(count(run.err, sentence.get<std::string>()), 1) << run.err;
+  }
+}
+
 TEST(Messages, ErrorsAreToldEvenWhenQuiet) {
   const ProgramRun run = runProgram("pcl_sq_fit", {"absent.pcd", "-q"});
   EXPECT_EQ(run.code, 1);

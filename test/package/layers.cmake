@@ -27,7 +27,7 @@ list(JOIN elements "|" elements)
 file(GLOB core_headers "${public}/*.h" "${public}/impl/*.hpp")
 # from the lowest folder to the highest; each includes those before it only
 set(folders util kernels geometry union mesh solver fit paper sensor table observe view_problem
-  families view_fit pieces parts quality grasp io elements)
+  families view_fit pieces parts quality grasp io elements scene)
 set(core_files "")
 set(above ${folders})
 foreach(folder IN LISTS folders)
@@ -59,9 +59,8 @@ forbid("layers 1-2 see Eigen and std only" "pcl/" ${mathematics})
 forbid("layers 1-2 are below the elements" "pcl_sq/(impl/|(${elements})\\.h)" ${mathematics})
 
 set(below_pipeline ${core_headers})
-list(FILTER below_pipeline EXCLUDE REGEX "object_surface_estimation")
-forbid("the pipeline is the top of core" "pcl_sq/object_surface_estimation"
-  ${below_pipeline})
+list(FILTER below_pipeline EXCLUDE REGEX "(object_surface|scene)_estimation")
+forbid("the pipeline is the top of core" "pcl_sq/(object_surface|scene)_estimation" ${below_pipeline})
 
 forbid("core is below stereo and visualization"
   "pcl_sq/stereo|pcl_sq/visualization|opencv|vtk" ${core_headers} ${core_files})

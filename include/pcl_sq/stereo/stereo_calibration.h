@@ -22,6 +22,12 @@ struct RawStereoCameras {
   bool fisheye = false;
 };
 
+/** \brief Finds R1, R2, P1 and P2 so that corresponding pixels share a row and nothing
+ * but what both cameras see is left (cv::stereoRectify with alpha 0).
+ * \param[in,out] cameras no fisheyes; M, D, R, T and the size are known
+ * \return Q, 4 x 4: from (u, v, disparity, 1) to homogeneous points [m] */
+PCL_SQ_EXPORTS cv::Mat rectifyPinholes(RawStereoCameras& cameras);
+
 /** \brief A calibration file that was read already: its name, for messages, and text.
  */
 struct CalibrationText {

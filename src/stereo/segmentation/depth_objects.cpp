@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo/segmentation/depth_objects.h"
 
+#include "pcl_sq/object_view.h"
 #include "stereo/segmentation/depth_patches.h"
 
 #include <opencv2/imgproc.hpp>
@@ -35,27 +36,6 @@ cv::Mat rimOf(const cv::Size& size) {
   if (size.width > 4 && size.height > 4)
     rim(cv::Rect(2, 2, size.width - 4, size.height - 4)).setTo(0);
   return rim;
-}
-
-/** \brief What speaks for a patch: its size, if it keeps off the image's border. */
-int bestPatch(const cv::Mat& labels, int count) {
-  const std::vector<int> size =
-      sizesOf(labels, count, cv::Mat(labels.size(), CV_8U, cv::Scalar(255)));
-  const std::vector<int> rim = sizesOf(labels, count, rimOf(labels.size()));
-  const int least = std::max(20, labels.rows * labels.cols / 2000);
-  int best = 0, best_size = 0;
-  for (const bool inner_only : {true, false}) {
-    for (int k = 1; k <= count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (size[i] >= least && size[i] > best_size && (!inner_only || rim[i] == 0)) {
-        best = k;
-        best_size = size[i];
-      }
-    }
-    if (best != 0)
-      return best;
-  }
-  return best;
 }
 
 bool findTable(const DepthGrid& grid, float tolerance, DepthPlane& plane) {
@@ -116,25 +96,18 @@ cv::Mat distanceTo(const cv::Mat& mask) {
 } // namespace
 
 bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why) {
-  const DepthGrid grid(cloud, wholeImage(cloud));
-  if (grid.finite.size() < 100) {
-    why = "the cloud has hardly any point; check the stereo images";
+  constexpr std::size_t STRIDE = sizeof(pcl::PointXYZRGB) / sizeof(float);
+  const CloudPoints points(Eigen::Map<const Eigen::Matrix3Xf, 0, Eigen::OuterStride<>>(
+      cloud.front().data, 3, Eigen::Index(cloud.size()), Eigen::OuterStride<>(STRIDE)));
+  const auto width = static_cast<int>(cloud.width);
+  const auto height = static_cast<int>(cloud.height);
+  std::optional<TableModel> table;
+  CellMask object;
+  if (!findStandingObject(points, width, height, table, object)) {
+    why = "nothing was found that stands on a table; give a hint where the object is";
     return false;
   }
-  const float tolerance = NOISE * grid.medianDepth();
-  DepthPlane plane;
-  if (!findTable(grid, tolerance, plane)) {
-    why = "there is no table, that is no large plane; give a hint where the object is";
-    return false;
-  }
-  int count = 0;
-  const cv::Mat labels = labelPatches(grid, &plane, tolerance, &count);
-  const int best = bestPatch(labels, count);
-  if (best == 0) {
-    why = "nothing stands on the largest plane; give a hint where the object is";
-    return false;
-  }
-  mask = grid.toPixels(labels == best);
+  mask = cv::Mat(height, width, CV_8U, object.cells.data()) != 0;
   return true;
 }
 

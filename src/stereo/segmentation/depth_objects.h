@@ -12,13 +12,9 @@ namespace pcl_sq::detail {
 
 using ColorCloud = pcl::PointCloud<pcl::PointXYZRGB>;
 
-/** \brief Rough mask of the largest object on a table, from an organized cloud in the
- * camera's frame (y down).
- *
- * The table is the largest plane that faces upwards, within 50 degrees; looking down
- * steeply, the largest plane of all. Objects are patches above it that depth jumps
- * separate; walls, which reach the image's border, are passed over if there is anything
- * else. \param[out] mask CV_8U of the cloud's size
+/** \brief Rough mask of the largest object on a table, as findStandingObject() finds it
+ * in an organized cloud in the camera's frame (y down).
+ * \param[out] mask CV_8U of the cloud's size
  * \param[out] why the reason of a failure, a sentence \return whether there is one */
 bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why);
 

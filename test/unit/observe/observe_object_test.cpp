@@ -43,6 +43,22 @@ TEST(ObserveObject, FindsIntrinsicsTableAndOutlineByItself) {
   EXPECT_NEAR(observed.table->offset, scene.table.offset, 0.001);
 }
 
+TEST(ObserveObject, AViewpointBesideTheImagesOwnIsTold) {
+  const ViewScene scene = canScene();
+  ViewOptions view;
+  view.mask = scene.mask;
+  ObservedObject observed;
+  view.viewpoint = scene.camera.center;
+  ASSERT_TRUE(observe(scene, view, observed));
+  EXPECT_EQ(observed.notes, std::vector<std::string>{});
+  view.viewpoint = scene.camera.center + Eigen::Vector3d(1.0, 1.0, 1.0);
+  ASSERT_TRUE(observe(scene, view, observed));
+  ASSERT_EQ(observed.notes.size(), 1u);
+  EXPECT_NE(observed.notes[0].find("not the viewpoint that was given"),
+            std::string::npos);
+  EXPECT_NEAR((observed.camera.center - scene.camera.center).norm(), 0.0, 1e-3);
+}
+
 TEST(ObserveObject, ObjectOnATableNeedsNoMask) {
   const ViewScene scene = canScene();
   ObservedObject observed;

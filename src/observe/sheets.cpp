@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/sheets.h"
+
+#include "sensor/local_quadric.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t NEIGHBOURS = 32, NEAREST = 10;
+constexpr int ROUNDS =
+    4; ///< of fitting a plane to the half of the points nearest to it
+/** \brief Standard deviation over the root mean square of the half of normal values
+ * that is nearest to zero. */
+constexpr double OF_HALF = 2.6477;
+constexpr double BEYOND = 4.0; ///< sigmas of another sheet from the own one
+constexpr std::size_t FEWEST = 5;
+constexpr double EVEN = 0.25;  ///< mean deviation of another sheet, over its distance
+constexpr double BESIDE = 0.5; ///< of its middle across the normal, over the radius
+constexpr Eigen::Index LOOKED_AT = 200;
+/** \brief Share of doubled sheets from which on the points are those of two sides: in
+ * one view they are chance. */
+constexpr double TWO_SIDES = 0.15;
+
+Sheet sheetAt(const Eigen::Matrix3Xd& points,
+              Eigen::Index i,
+              std::vector<Eigen::Index> near) {
+  Sheet sheet;
+  const Eigen::Vector3d at = points.col(i);
+  const auto n = near.size();
+  std::sort(near.begin(), near.end(), [&](Eigen::Index a, Eigen::Index b) {
+    const double da = (points.col(a) - at).squaredNorm(),
+                 db = (points.col(b) - at).squaredNorm();
+    return da != db ? da < db : a < b;
+  });
+  std::vector<double> height(n);
+  std::vector<std::size_t> order(n);
+  std::size_t used = NEAREST;
+  for (std::size_t k = 0; k < n; ++k)
+    order[k] = k;
+  double square = 0.0;
+  for (int round = 0; round < ROUNDS; ++round) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < used; ++k)
+      mean += points.col(near[order[k]]) / double(used);
+    for (std::size_t k = 0; k < used; ++k) {
+      const Eigen::Vector3d d = points.col(near[order[k]]) - mean;
+      moments += d * d.transpose();
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(moments);
+    sheet.normal = eigen.eigenvectors().col(0);
+    for (std::size_t k = 0; k < n; ++k)
+      height[k] = sheet.normal.dot(points.col(near[k]) - mean);
+    used = n / 2;
+    std::nth_element(order.begin(),
+                     order.begin() + std::ptrdiff_t(used),
+                     order.end(),
+                     [&](std::size_t a, std::size_t b) {
+                       const double ha = std::abs(height[a]), hb = std::abs(height[b]);
+                       return ha != hb ? ha < hb : a < b;
+                     });
+    square = 0.0;
+    for (std::size_t k = 0; k < used; ++k)
+      square += std::pow(height[order[k]], 2) / double(used);
+  }
+  const double own = OF_HALF * std::sqrt(square);
+  const double radius = (points.col(near.back()) - at).norm();
+  for (const double sign : {1.0, -1.0}) {
+    double sum = 0.0, deviation = 0.0;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    std::vector<std::size_t> beyond;
+    for (std::size_t k = 0; k < n; ++k)
+      if (sign * height[k] > BEYOND * own) {
+        beyond.push_back(k);
+        sum += height[k];
+        middle += points.col(near[k]) - at;
+      }
+    if (beyond.size() < FEWEST)
+      continue;
+    const double mean = sum / double(beyond.size());
+    for (const std::size_t k : beyond)
+      deviation += std::abs(height[k] - mean) / double(beyond.size());
+    middle /= double(beyond.size());
+    middle -= sheet.normal * sheet.normal.dot(middle);
+    if (deviation < EVEN * std::abs(mean) && middle.norm() < BESIDE * radius &&
+        (sheet.other == 0.0 || std::abs(mean) < std::abs(sheet.other)))
+      sheet.other = mean;
+  }
+  std::vector<Eigen::Index> same;
+  for (std::size_t k = 0; k < n; ++k)
+    if (sheet.other == 0.0 || std::abs(height[k]) < 0.5 * std::abs(sheet.other))
+      same.push_back(near[k]);
+  if (same.size() >= 2 * LocalQuadric::TERMS) {
+    const LocalQuadric patch = localQuadric(points, same);
+    if (patch.residuals.size() > 0)
+      sheet.scatter = patch.scatter();
+  }
+  return sheet;
+}
+
+} // namespace
+
+std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points, Eigen::Index step) {
+  std::vector<Sheet> sheets;
+  if (points.cols() < Eigen::Index(2 * NEIGHBOURS))
+    return sheets;
+  Neighbourhood neighbourhood(points, 1);
+  for (Eigen::Index i = 0; i < points.cols(); i += step)
+    sheets.push_back(sheetAt(points, i, neighbourhood.of(i, NEIGHBOURS)));
+  return sheets;
+}
+
+double noiseOf(const std::vector<Sheet>& sheets) {
+  std::vector<double> scatters;
+  for (const Sheet& s : sheets)
+    if (s.scatter >= 0.0)
+      scatters.push_back(s.scatter);
+  return scatters.empty() ? 0.0 : median(std::move(scatters));
+}
+
+double doubled(const std::vector<Sheet>& sheets) {
+  const auto count = std::count_if(
+      sheets.begin(), sheets.end(), [](const Sheet& s) { return s.other != 0.0; });
+  return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
+}
+
+bool hasTwoSides(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / LOOKED_AT);
+  return doubled(sheetsOf(points, step)) > TWO_SIDES;
+}
+
+} // namespace pcl_sq::detail
