@@ -46,10 +46,9 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
     const BodyRow body = footPointRow(s, points_[i].cast<double>(), &foot);
     // the surface moves on along its normal
     const Eigen::Vector3d gradient = logGradient(s, foot);
-    const Vector row =
-        rowOf(body.derivatives,
-              -gradient.dot(bendVelocity(s, foot.unbent)) /
-                  std::max(gradient.norm(), 1e-300));
+    const Vector row = rowOf(body.derivatives,
+                             -gradient.dot(bendVelocity(s, foot.unbent)) /
+                                 std::max(gradient.norm(), 1e-300));
     const double q = precision ? double(precision[i]) : 1.0;
     const double square = q * body.value * body.value;
     double share;

@@ -6,8 +6,8 @@
 
 namespace pcl_sq::detail {
 
-/** \brief M24: points and planes, as minimiseSquares() wants them, of a body with e2 = 1
- * whose z axis is bent towards its x axis. Parameters: t along the own axes, w, ln a,
+/** \brief M24: points and planes, as minimiseSquares() wants them, of a body with e2 =
+ * 1 whose z axis is bent towards its x axis. Parameters: t along the own axes, w, ln a,
  * e1, the curvature. */
 class BentProblem {
 public:

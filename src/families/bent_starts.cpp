@@ -11,8 +11,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double CUT = 0.02;       ///< share of the points beyond an extent's end
-constexpr double ONE_SIDED = 1.6;  ///< depth over half the width of a rod seen whole
+constexpr double CUT = 0.02;      ///< share of the points beyond an extent's end
+constexpr double ONE_SIDED = 1.6; ///< depth over half the width of a rod seen whole
 constexpr double START_EPSILON = 0.4;
 constexpr double MOST_BENT = 0.9; ///< of what is valid
 
@@ -40,11 +40,10 @@ Superquadric arcAcross(const ViewProblem& problem, const Eigen::Vector3d& normal
     rows.row(i) << 2.0 * at.col(i).transpose(), 1.0;
     heights.push_back(normal.dot(p));
   }
-  const Eigen::Vector3d solution = rows.colPivHouseholderQr().solve(
-      at.colwise().squaredNorm().transpose());
+  const Eigen::Vector3d solution =
+      rows.colPivHouseholderQr().solve(at.colwise().squaredNorm().transpose());
   const Eigen::Vector2d center = solution.head<2>();
-  const double radius =
-      std::sqrt(std::max(solution[2] + center.squaredNorm(), 1e-12));
+  const double radius = std::sqrt(std::max(solution[2] + center.squaredNorm(), 1e-12));
   const Eigen::Vector2d outwards = at.rowwise().mean() - center;
   const double middle_angle = std::atan2(outwards.y(), outwards.x());
   std::vector<double> angles, radii;

@@ -32,8 +32,8 @@ Rod fitRod(const BentProblem& problem, const Rod& start, int iterations) {
   LmLimits limits;
   limits.max_iterations = iterations;
   limits.cost_tolerance = 1e-5;
-  auto found = minimiseSquares(
-      problem, start.model, bentBasis(start.round, start.held), limits);
+  auto found =
+      minimiseSquares(problem, start.model, bentBasis(start.round, start.held), limits);
   Rod rod = start;
   rod.model = found.model;
   rod.model.rotation =
@@ -154,8 +154,7 @@ void fitBentAllPoints(const ViewProblem& problem,
                       ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod =
-      fitRod(BentProblem(problem, problem.all(), sigma), start, ITERATIONS);
+  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma), start, ITERATIONS);
   if (!(rod.cost < 1e299))
     return;
   chosen.bic += rod.cost - chosen.cost;

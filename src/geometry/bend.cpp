@@ -61,8 +61,8 @@ BentFrame bentFrame(const Superquadric& s, double z) {
   BentFrame f;
   f.middle = 2.0 * half * half / s.bend * d;
   f.middle.z() = std::sin(angle) / s.bend;
-  f.axes = Eigen::AngleAxisd(angle, Eigen::Vector3d(-d.y(), d.x(), 0.0))
-               .toRotationMatrix();
+  f.axes =
+      Eigen::AngleAxisd(angle, Eigen::Vector3d(-d.y(), d.x(), 0.0)).toRotationMatrix();
   return f;
 }
 
@@ -109,12 +109,11 @@ Eigen::Vector3d bentHalfSizes(const Superquadric& s) {
   const Eigen::Vector3d d = towards(s);
   const double radius = 1.0 / std::abs(s.bend), angle = s.semi_axes.z() / radius;
   const double width = reachInPlane(s);
-  const double end = radius - std::cos(angle) * (std::cos(angle) > 0.0
-                                                     ? radius - width
-                                                     : radius + width);
+  const double end =
+      radius -
+      std::cos(angle) * (std::cos(angle) > 0.0 ? radius - width : radius + width);
   const double in_plane = std::max(width, end);
-  const double beside =
-      Eigen::Vector2d(d.y(), d.x()).cwiseAbs().dot(widest(s));
+  const double beside = Eigen::Vector2d(d.y(), d.x()).cwiseAbs().dot(widest(s));
   return {std::abs(d.x()) * in_plane + std::abs(d.y()) * beside,
           std::abs(d.y()) * in_plane + std::abs(d.x()) * beside,
           (radius + width) * (angle < M_PI_2 ? std::sin(angle) : 1.0)};
@@ -134,10 +133,8 @@ const char* invalidBend(const Superquadric& s) {
   return nullptr;
 }
 
-BentContact bentContact(const Superquadric& s,
-                        const Eigen::Vector3d& n,
-                        double low,
-                        double high) {
+BentContact
+bentContact(const Superquadric& s, const Eigen::Vector3d& n, double low, double high) {
   constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
   constexpr int SLICES = 24, REFINEMENTS = 30;
   constexpr double GOLDEN = 0.6180339887498949;
@@ -174,7 +171,8 @@ BentContact bentContact(const Superquadric& s,
       best = begin + i * step;
     }
   }
-  double left_end = std::max(best - step, begin), right_end = std::min(best + step, end);
+  double left_end = std::max(best - step, begin),
+         right_end = std::min(best + step, end);
   double left = right_end - GOLDEN * (right_end - left_end),
          right = left_end + GOLDEN * (right_end - left_end);
   double at_left = slice(left).reach, at_right = slice(right).reach;
@@ -215,7 +213,8 @@ BentContact bentContact(const Superquadric& s,
 
 int convexPieces(const Superquadric& s) {
   constexpr double SAGITTA_ANGLE = 0.35; // rad to either side: a sagitta of 6 % of R
-  return std::max(1, int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / SAGITTA_ANGLE)));
+  return std::max(1,
+                  int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / SAGITTA_ANGLE)));
 }
 
 BentMoments bentMoments(const Superquadric& s) {
@@ -232,10 +231,10 @@ BentMoments bentMoments(const Superquadric& s) {
     m.first += dz * (c.area * frame.middle - s.bend * shift);
     const Eigen::Matrix3d lever = frame.middle * shift.transpose(),
                           turned = e * f.transpose();
-    m.second += dz * (c.area * frame.middle * frame.middle.transpose() -
-                      s.bend * (lever + lever.transpose()) +
-                      in_plane * e * e.transpose() + across * f * f.transpose() +
-                      mixed * (turned + turned.transpose()));
+    m.second +=
+        dz * (c.area * frame.middle * frame.middle.transpose() -
+              s.bend * (lever + lever.transpose()) + in_plane * e * e.transpose() +
+              across * f * f.transpose() + mixed * (turned + turned.transpose()));
   });
   return m;
 }

@@ -37,12 +37,12 @@ const char* invalidBend(const Superquadric& s);
 
 /** \brief A point of a bent body that reaches farthest along a direction. */
 struct BentContact {
-  double reach = 0.0;       ///< along the direction, from the centre
-  Eigen::Vector3d at;       ///< own frame
-  Eigen::Vector3d unbent;   ///< before bending
-  double sine = 0.0;        ///< of its latitude, signed
-  double cosine = 1.0;      ///< and its cosine
-  Eigen::Vector2d shares;   ///< cos^2 and sin^2 of its angle in the section
+  double reach = 0.0;     ///< along the direction, from the centre
+  Eigen::Vector3d at;     ///< own frame
+  Eigen::Vector3d unbent; ///< before bending
+  double sine = 0.0;      ///< of its latitude, signed
+  double cosine = 1.0;    ///< and its cosine
+  Eigen::Vector2d shares; ///< cos^2 and sin^2 of its angle in the section
 };
 
 /** \brief The support function's contact, of a body cut into slices; \a direction in

@@ -97,13 +97,14 @@ Place radiallyProjected(const Superquadric& s, const Place& p) {
   return q;
 }
 
-Eigen::Vector3d deformed(const Superquadric& s, const Eigen::Vector3d& straight) {
+PCL_SQ_EXPORTS Eigen::Vector3d deformed(const Superquadric& s, // pictures need it
+                                        const Eigen::Vector3d& straight) {
   return bent(s, straight.cwiseProduct(growth(s, straight.z())));
 }
 
-Eigen::Vector3d deformedAreaVector(const Superquadric& s,
-                                   const Eigen::Vector3d& straight,
-                                   const Eigen::Vector3d& normal) {
+PCL_SQ_EXPORTS Eigen::Vector3d deformedAreaVector(const Superquadric& s,
+                                                  const Eigen::Vector3d& straight,
+                                                  const Eigen::Vector3d& normal) {
   const Eigen::Vector3d upright = taperedAreaVector(s, straight, normal);
   if (!s.isBent())
     return upright;

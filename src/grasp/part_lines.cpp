@@ -77,7 +77,8 @@ void addBentLines(const Superquadric& s,
       const Eigen::Vector3d flip(
           image & 1u ? -1 : 1, image & 2u ? -1 : 1, image & 4u ? -1 : 1);
       const int first = signs[0] < 0 ? 0 : 1;
-      if (flip[first] < 0.0 || ((flip.array() < 0.0) && (straight.array() == 0.0)).any())
+      if (flip[first] < 0.0 ||
+          ((flip.array() < 0.0) && (straight.array() == 0.0)).any())
         continue;
       const Eigen::Vector3d p = flip.cwiseProduct(straight);
       const Eigen::Vector3d q(signs[0] * p.x(), signs[1] * p.y(), p.z());
