@@ -16,7 +16,7 @@ namespace {
  * taper: where one is, a bend is not looked for. */
 constexpr double MISFIT = 1.3;
 constexpr double WIDE = 0.03;   ///< sigma of the search, in the points' deviation
-constexpr double SLENDER = 1.5; ///< a rod's length over its width at least
+constexpr double SLENDER = 2.0; ///< a rod's length over its width at least
 constexpr double SLIGHT = 0.1;  ///< rad to either side, of a bend that starts straight
 constexpr std::size_t KEPT = 2; ///< starts that are refined
 constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 25;
@@ -87,6 +87,11 @@ double pointsCost(const UnitPoints& points, double sigma, const Superquadric& bo
   return cost / (sigma * sigma);
 }
 
+/** \brief A bent sheet is none. */
+bool isRod(const Superquadric& s) {
+  return s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff();
+}
+
 bool cheaper(const Rod& a, const Rod& b) {
   return a.cost < b.cost;
 }
@@ -110,7 +115,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   const BentProblem rough(problem, problem.coarse(), wide);
   std::vector<Rod> found;
   for (const Superquadric& s : starts)
-    if (s.isValid() && s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff()) {
+    if (s.isValid() && isRod(s)) {
       Rod start{s};
       start.model.semi_axes.head<2>().setConstant(
           std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
@@ -127,7 +132,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   const auto take = [&](const Rod& start) {
     const Rod rod = fitRod(thorough, start, ITERATIONS);
     const ShapeCandidate c = candidateOf(rod, problem);
-    if (rod.cost < 1e299 && (!chosen || c.bic < chosen->bic))
+    if (rod.cost < 1e299 && isRod(rod.model) && (!chosen || c.bic < chosen->bic))
       chosen = c;
     return rod;
   };
