@@ -5,7 +5,8 @@
 #include "files/cloud_io.h"
 #include "files/files.h"
 #include "options/offset.h"
-#include "pcl_sq/model_io.h"
+#include "pcl_sq/file_io.h"
+#include "pcl_sq/scene_io.h"
 #include "scene/evaluation.h"
 #include "scene/mesh_reader.h"
 #include "scene/pose_file.h"
@@ -27,14 +28,20 @@ struct Options {
   std::string model, truth, mesh, pose, cloud, output;
   std::string symmetry = "none", format = "json";
   std::size_t samples = 60000;
+  std::size_t object = 0; ///< of a scene, from 1 on; 0: all
   unsigned int threads = 0;
   CloudOptions cloud_options;
 };
 
 void addOptions(CLI::App& cli, Options& o) {
-  cli.add_option("model", o.model, "Model to judge (JSON); -: standard input")
+  cli.add_option("model", o.model, "Model or scene to judge (JSON); -: standard input")
       ->required()
       ->type_name("FILE");
+  cli.add_option("--object",
+                 o.object,
+                 "Number of the thing of a scene, from 1 on; 0: all of them as one")
+      ->check(wholeNumber(0, 65535))
+      ->capture_default_str();
   cli.add_option("--truth", o.truth, "truth.json of pcl_sq_render")->type_name("FILE");
   cli.add_option("--mesh", o.mesh, "Closed mesh of the object, OBJ/STL/PLY")
       ->type_name("FILE");
@@ -145,6 +152,33 @@ void printTable(const Json& json) {
   line("D (Eq. 7, mm)", json["distortion_mm"].get<double>(), "");
 }
 
+/** \brief The model, or what is asked for of a scene. \throw Failure */
+ModelFile readModel(const Options& o) {
+  ModelFile file;
+  std::string text, why;
+  if (pcl_sq::readFile(o.model, text) && isScene(text)) {
+    SceneFile scene;
+    if (!loadScene(o.model, scene, &why))
+      throw Failure(why + ".");
+    if (o.object > scene.objects.size())
+      throw UsageError("--object " + std::to_string(o.object) + ": the scene has " +
+                       std::to_string(scene.objects.size()) + " only.");
+    if (o.object > 0)
+      return scene.objects[o.object - 1].file;
+    if (scene.objects.size() > 1 && (!o.truth.empty() || !o.mesh.empty()))
+      throw UsageError("the scene has " + std::to_string(scene.objects.size()) +
+                       " things, a mesh or truth is of one; give --object.");
+    file.model = scene.all();
+    return file;
+  }
+  if (o.object > 0)
+    throw UsageError("--object has no effect here: it goes with a scene of "
+                     "pcl_sq_scene.");
+  if (!loadModel(o.model, file, &why))
+    throw Failure(why + ".");
+  return file;
+}
+
 int work(const Options& o) {
   if (o.truth.empty() && o.mesh.empty() && o.cloud.empty())
     throw UsageError("give --truth, --mesh or --cloud to judge the model against.");
@@ -155,10 +189,7 @@ int work(const Options& o) {
   const bool print_json = o.format == "json" && !isStandardOutput(o.output);
   if (print_json)
     claimOutput("--format json", "-");
-  ModelFile file;
-  std::string why;
-  if (!loadModel(o.model, file, &why))
-    throw Failure(why + ".");
+  const ModelFile file = readModel(o);
   if (file.model.empty())
     throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
   const MultiSuperquadric& model = file.model;

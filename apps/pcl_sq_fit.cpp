@@ -4,15 +4,15 @@
 #include "command_line/process.h"
 #include "command_line/value_checks.h"
 #include "files/files.h"
+#include "files/manifest.h"
 #include "model/grasp_output.h"
+#include "model/model_line.h"
 #include "options/model_options.h"
 #include "report/ordered_lines.h"
 #include "report/summary.h"
 #include "report/text.h"
 
 #include "pcl_sq/stage_timer.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -32,11 +32,16 @@ const char* const EXAMPLES =
     "  pcl_sq_fit can.ply --decomposition none\n"
     "  pcl_sq_fit cup.ply --decomposition none --taper --mesh cup.stl\n"
     "  pcl_sq_fit scene.pcd --mask mask.png --grasps 20 --gripper wsg_50 -o cup.json\n"
-    "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n";
+    "  pcl_sq_fit cup.pcd --export cup.urdf --export cup.glb --html cup.html\n"
+    "  pcl_sq_fit objects/*.pcd --jsonl > models.jsonl\n"
+    "  pcl_sq_fit objects/*.pcd --jsonl --shard 1/2 --resume -o models_1.jsonl\n";
 
 struct Arguments {
   std::vector<std::string> clouds;
+  std::string manifest; ///< names further clouds, or empty
+  std::string shard;    ///< I/N, or empty: all
   bool jsonl = false;
+  bool resume = false;
   int grasps = 0;
   app::ModelOptions options;
   app::GraspOptions grasp_options;
@@ -91,36 +96,32 @@ int fitOne(const Arguments& arguments) {
   return app::DONE;
 }
 
-/** \brief What stands in the place of a model that could not be made. */
-std::string errorLine(const std::string& path, const std::string& sentence) {
-  const nlohmann::ordered_json line = {{"input", {{"path", path}}},
-                                       {"error", sentence}};
-  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 /** \brief The model as a line, or why there is none. \return whether there is */
 bool fitLine(const std::string& path,
              const app::ModelOptions& options,
              std::string& line) {
-  std::string sentence;
-  try {
-    app::LoadedCloud input;
-    const app::ModelResult result = fit(path, options, input);
-    app::printNotes(result, path);
-    line = toJson(result.file, -1);
+  app::ModelLine made = app::makeModelLine(path, options);
+  line = std::move(made.line);
+  for (const std::string& sentence : made.notes)
+    app::note(sentence, path);
+  if (made.failure.empty())
     return true;
-  } catch (const std::exception& error) {
-    sentence = app::sentenceOf(error);
-  }
-  line = errorLine(path, sentence);
-  std::cerr << "pcl_sq_fit: " + app::printable(path + ": " + sentence) + "\n";
+  std::cerr << "pcl_sq_fit: " + app::printable(path + ": " + made.failure) + "\n";
   return false;
 }
 
 /** \brief One JSON line per cloud, written as it is done; clouds in parallel. */
 int fitMany(const Arguments& arguments) {
   app::ModelOptions options = arguments.options;
-  const std::size_t count = arguments.clouds.size();
+  std::vector<std::string> clouds = arguments.clouds;
+  app::DoneLines before;
+  if (arguments.resume) {
+    before = app::readDoneLines(options.output);
+    clouds = app::withoutDone(clouds, before);
+  }
+  const std::size_t count = clouds.size();
+  if (count == 0) // all was done before, or the shard is empty
+    return before.all_fitted ? app::DONE : app::FAILED;
   const unsigned cores =
       options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   const std::size_t workers = std::clamp<std::size_t>(cores, 1, count);
@@ -131,14 +132,17 @@ int fitMany(const Arguments& arguments) {
   app::OrderedLines lines(output, TURNS * workers);
   app::setInterruptAction([&] { lines.flush(); });
   std::atomic<std::size_t> next{0}, done{0};
-  std::atomic<bool> all_fitted{true};
+  std::atomic<bool> all_fitted{before.all_fitted};
+  const std::size_t first = before.text.empty() ? 0 : 1;
+  if (first > 0) // the old lines take their place in the file with the first new one
+    lines.put(0, before.text);
   app::Progress progress("fitting", count);
   const auto work = [&] {
     for (std::size_t i = next++; i < count && lines.failure().empty(); i = next++) {
       std::string line;
-      if (!fitLine(arguments.clouds[i], options, line))
+      if (!fitLine(clouds[i], options, line))
         all_fitted = false;
-      lines.put(i, line);
+      lines.put(first + i, line);
       progress.update(++done);
     }
   };
@@ -156,16 +160,29 @@ int fitMany(const Arguments& arguments) {
   return all_fitted ? app::DONE : app::FAILED;
 }
 
-int checkedFit(const Arguments& arguments) {
+int checkedFit(Arguments& arguments) {
   const app::ModelOptions& options = arguments.options;
+  if (!arguments.manifest.empty()) {
+    app::claimInput(arguments.manifest);
+    for (const std::string& name : app::readManifest(arguments.manifest))
+      arguments.clouds.push_back(name);
+  }
+  if (arguments.clouds.empty())
+    throw app::UsageError("a point cloud is missing; name one, or give --manifest.");
+  if (!arguments.jsonl && (!arguments.shard.empty() || arguments.resume))
+    throw app::UsageError("--shard and --resume are for many clouds: add --jsonl.");
   const bool single_outputs = !options.mesh.empty() || !options.grasp_points.empty() ||
-                              !options.snapshot.empty();
+                              !options.snapshot.empty() || options.exported.any();
   if (arguments.clouds.size() > 1 && !arguments.jsonl)
     throw app::UsageError("several clouds need --jsonl, one JSON line for each.");
+  if (!arguments.shard.empty())
+    arguments.clouds = app::shardOf(arguments.clouds, arguments.shard);
   if (arguments.jsonl && (single_outputs || arguments.grasps > 0))
     throw app::UsageError(
-        "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps and --snapshot "
-        "are for one cloud.");
+        "--jsonl goes with -o alone; --mesh, --grasp-points, --grasps, --snapshot, "
+        "--export and --html are for one cloud.");
+  if (arguments.resume && (options.output.empty() || options.output == "-"))
+    throw app::UsageError("--resume goes on with a file: name it with -o.");
   if (arguments.grasps > 0)
     app::checkGraspOptions(arguments.grasp_options);
   for (const std::string& cloud : arguments.clouds)
@@ -189,14 +206,27 @@ int main(int argc, char** argv) {
       EXAMPLES,
       [&](CLI::App& cli) {
         cli.add_option("cloud", arguments.clouds, "Point clouds; -: standard input")
-            ->required()
             ->type_name("FILE...");
+        cli.add_option("--manifest",
+                       arguments.manifest,
+                       "File that names clouds, one a line, beside those given")
+            ->type_name("FILE");
         cli.add_flag("--jsonl",
                      arguments.jsonl,
                      "One JSON line per cloud, on standard output or in -o, in the "
                      "order of the clouds; each is added as soon as it is done, so "
                      "that Ctrl-C keeps those; what fails has an \"error\" instead of "
                      "a model. Clouds in parallel");
+        cli.add_option("--shard",
+                       arguments.shard,
+                       "Share I of N of the clouds, with --jsonl: every Nth from the "
+                       "Ith, for so many processes or machines")
+            ->type_name("I/N");
+        cli.add_flag(
+            "--resume",
+            arguments.resume,
+            "Go on with the -o of a run of --jsonl that was ended: clouds that "
+            "have a line there are not done again");
         app::addCloudOptions(cli, arguments.options.cloud);
         app::addModelOptions(cli, arguments.options);
         app::addCoverageOptions(cli, arguments.options);

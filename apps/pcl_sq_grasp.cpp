@@ -4,9 +4,15 @@
 #include "command_line/value_checks.h"
 #include "files/files.h"
 #include "files/graspit_folder.h"
+#include "model/export_output.h"
 #include "model/grasp_output.h"
 #include "options/model_options.h"
 #include "report/summary.h"
+
+#include "pcl_sq/file_io.h"
+#include "pcl_sq/scene_io.h"
+
+#include <algorithm>
 
 using namespace pcl_sq;
 
@@ -19,10 +25,13 @@ const char* const EXAMPLES =
     "  pcl_sq_grasp cup.json --table 0,0,1,0 -o grasps.json --snapshot grasps.png\n"
     "  pcl_sq_grasp scene.pcd --remove-plane --gripper robotiq_2f_85 --count 20\n"
     "  pcl_sq_grasp cup.json --cloud scene.pcd --gripper my_hand.toml\n"
-    "  pcl_sq_grasp cup.json --graspit ~/graspit\n";
+    "  pcl_sq_grasp cup.json --html grasps.html\n"
+    "  pcl_sq_grasp cup.json --graspit ~/graspit\n"
+    "  pcl_sq_grasp tabletop.json --object 1 -o grasps.json\n";
 
 struct Input {
   ModelFile file;
+  SceneFile scene;                       ///< without objects where the input is none
   std::optional<app::LoadedCloud> cloud; ///< the whole scene
 };
 
@@ -36,13 +45,32 @@ bool isModel(const std::string& path) {
   return first != std::string::npos && text[first] == '{';
 }
 
+/** \brief Whether a model file is one of a scene. */
+bool isSceneFile(const std::string& path) {
+  std::string text;
+  return readFile(path, text) && isScene(text);
+}
+
+/** \brief An object of a scene as a model on the scene's table. */
+ModelFile objectOf(const SceneFile& scene, std::size_t object) {
+  ModelFile file = scene.objects[object].file;
+  if (!file.table)
+    file.table = scene.table;
+  return file;
+}
+
 Input loadInput(const std::string& path,
                 const std::string& cloud_path,
                 const app::ModelOptions& model_options) {
   Input input;
   if (isModel(path)) {
     std::string why;
-    if (!loadModel(path, input.file, &why))
+    const bool scene = isSceneFile(path);
+    if (scene && !loadScene(path, input.scene, &why))
+      throw app::Failure(why + ".");
+    if (scene && input.scene.objects.empty())
+      throw app::Failure("'" + path + "' holds no object; there is nothing to grasp.");
+    if (!scene && !loadModel(path, input.file, &why))
       throw app::Failure(why + ".");
     if (!cloud_path.empty())
       input.cloud = app::loadCloud(cloud_path, model_options.cloud);
@@ -63,6 +91,7 @@ Input loadInput(const std::string& path,
 
 int plan(const std::string& input_path,
          const std::string& cloud_path,
+         std::size_t object,
          const app::ModelOptions& model_options,
          app::GraspOptions& options) {
   options.frame = model_options.frame;
@@ -70,24 +99,58 @@ int plan(const std::string& input_path,
   app::claimInput(cloud_path);
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
-  const Input input = loadInput(input_path, cloud_path, model_options);
-  GraspScene scene =
-      app::makeScene(options, input.file, input.cloud ? &*input.cloud : nullptr);
-  if (input.cloud)
-    scene.cloud = app::columnsOf(*input.cloud);
+  Input input = loadInput(input_path, cloud_path, model_options);
+  const std::size_t objects = input.scene.objects.size();
+  if (object > objects)
+    throw app::UsageError(
+        objects == 0
+            ? "--object has no effect here: it goes with a scene of pcl_sq_scene."
+            : "--object " + std::to_string(object) + ": the scene has " +
+                  std::to_string(objects) + " only.");
+  GraspScene scene;
   double milliseconds = 0.0;
+  GraspPlan plan;
   app::StageLine line;
   line.show("planning grasps");
-  const GraspPlan plan =
-      app::planGrasps(input.file.model, scene, options, milliseconds);
+  // of a scene the thing that is asked for, else the one with the best grasp
+  const std::size_t first = object > 0 ? object - 1 : 0;
+  const std::size_t last = object > 0 ? object : std::max<std::size_t>(objects, 1);
+  std::size_t best = first;
+  for (std::size_t k = first; k < last; ++k) {
+    const ModelFile file = objects > 0 ? objectOf(input.scene, k) : input.file;
+    GraspScene around =
+        app::makeScene(options, file, input.cloud ? &*input.cloud : nullptr);
+    if (input.cloud)
+      around.cloud = app::columnsOf(*input.cloud);
+    around.obstacles = input.scene.all(k);
+    double took = 0.0;
+    GraspPlan found = app::planGrasps(file.model, around, options, took);
+    milliseconds += took;
+    const bool better = found.ok() && (!plan.ok() || found.grasps[0].scores.total >
+                                                         plan.grasps[0].scores.total);
+    if (k > first && !better)
+      continue;
+    plan = std::move(found);
+    scene = std::move(around);
+    input.file = file;
+    best = k;
+  }
   line.clear();
   if (!plan.ok())
     throw app::Failure(plan.failure);
+  if (objects > 1 && object == 0)
+    app::note("the grasps are those of object " + std::to_string(best + 1) +
+              ", which has the best one; --object chooses another");
   const std::string json = app::graspsToJson(
       plan, scene, options, input.file.frame, input_path, milliseconds);
   if (options.graspit_name.empty())
     options.graspit_name = app::graspitName(input_path);
   app::writeGraspOutputs(input.file.model, plan, scene, options, json);
+  ModelFile shown = input.file;
+  app::addGrasps(plan, options, shown);
+  app::ExportOptions page;
+  page.html = options.html;
+  app::writeExports(page, shown, input.cloud ? &*input.cloud : nullptr);
   if (!app::quiet())
     app::printGrasps(plan, options, milliseconds);
   return app::DONE;
@@ -97,6 +160,7 @@ int plan(const std::string& input_path,
 
 int main(int argc, char** argv) {
   std::string input_path, cloud_path;
+  std::size_t object = 0;
   app::GraspOptions options;
   app::ModelOptions model_options;
   return app::run(
@@ -109,10 +173,17 @@ int main(int argc, char** argv) {
         cli.set_config("--config", "", "TOML file with options; the command line wins")
             ->type_name("FILE")
             ->check(app::existingFile());
-        cli.add_option(
-               "input", input_path, "Model (JSON) or point cloud; -: standard input")
+        cli.add_option("input",
+                       input_path,
+                       "Model or scene (JSON), or point cloud; -: standard input")
             ->required()
             ->type_name("FILE");
+        cli.add_option("--object",
+                       object,
+                       "Number of the thing of a scene, from 1 on; the others are "
+                       "obstacles; 0: the one with the best grasp")
+            ->check(app::wholeNumber(0, 65535))
+            ->capture_default_str();
         app::addGraspOutputOptions(cli, options);
         app::addGripperOptions(cli, options);
         cli.add_option("--cloud",
@@ -135,5 +206,5 @@ int main(int argc, char** argv) {
             ->check(app::wholeNumber(0, 1024))
             ->capture_default_str();
       },
-      [&] { return plan(input_path, cloud_path, model_options, options); });
+      [&] { return plan(input_path, cloud_path, object, model_options, options); });
 }

@@ -4,6 +4,7 @@
 #include "command_line/value_checks.h"
 #include "files/files.h"
 #include "model/cloud_picture.h"
+#include "model/export_output.h"
 #include "options/frame_options.h"
 #include "options/offset.h"
 
@@ -26,6 +27,7 @@ const char* const EXAMPLES =
     "  pcl_sq_snapshot cup.json --cloud cup.pcd -o cup.png\n"
     "  pcl_sq_snapshot cup.json --view camera --size 640x480 -o cup.png\n"
     "  pcl_sq_snapshot cup.json --cloud cup.pcd --turntable 36 -o turn.png\n"
+    "  pcl_sq_snapshot cup.json --cloud cup.pcd --html cup.html --export cup.sdf\n"
     "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
 
 struct Arguments {
@@ -34,6 +36,7 @@ struct Arguments {
   app::CloudOptions cloud_options;
   app::FrameOptions frame;
   SnapshotOptions options;
+  app::ExportOptions exported;
 };
 
 void parseSize(const std::string& text, SnapshotOptions& options) {
@@ -50,8 +53,8 @@ void configure(CLI::App& cli, Arguments& a) {
       ->type_name("FILE");
   app::addCloudOptions(cli, a.cloud_options);
   cli.add_option("-o,--output", a.output, "Picture, ends in .png; -: standard output")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  app::addExportOptions(cli, a.exported);
   cli.add_option("--size", a.size, "Width x height [px], 16 to 4096 each")
       ->type_name("WxH")
       ->capture_default_str();
@@ -96,10 +99,16 @@ void check(Arguments& a) {
     throw app::UsageError(why + ".");
   app::claimInput(a.model);
   app::claimInput(a.cloud);
+  if (a.output.empty() && !a.exported.any())
+    throw app::UsageError("there is nothing to write; give --output, --html or "
+                          "--export.");
+  if (!a.exported.exports.empty() && a.model.empty())
+    throw app::UsageError("--export needs a model.");
   if (a.turntable > 0 && app::extensionOf(a.output) != ".png")
     throw app::UsageError("--turntable writes several files; give --output a name that "
                           "ends in .png.");
   app::claimOutput("--output", a.output, {".png"});
+  app::checkExportOptions(a.exported);
 }
 
 /** \brief Three numbers that pcl_sq_fit reports: "up", "sensor"; if it does. */
@@ -125,11 +134,16 @@ int takePictures(const Arguments& a) {
   std::optional<app::LoadedCloud> cloud;
   if (!a.cloud.empty())
     cloud = readCloud(a);
+  ModelFile file;
   if (!a.model.empty()) {
-    ModelFile file;
     std::string why;
     if (!loadModel(a.model, file, &why))
       throw app::Failure(why + ".");
+  }
+  app::writeExports(a.exported, file, cloud ? &*cloud : nullptr);
+  if (a.output.empty())
+    return app::DONE;
+  if (!a.model.empty()) {
     // pictures are made of floats
     const Eigen::Vector3d offset = cloud ? cloud->offset : app::offsetOf(file.model);
     file.model = app::moved(std::move(file.model), -offset);

@@ -7,16 +7,14 @@
 #include "options/model_options.h"
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "report/summary.h"
-#include "stereo/hand_over.h"
 #include "stereo/panel.h"
 #include "stereo/stereo_cloud.h"
 #include "stereo/stereo_front.h"
+#include "stereo/stereo_model.h"
 
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <pcl/common/io.h>
 
-#include <cmath>
 #include <limits>
 
 using namespace pcl_sq;
@@ -72,43 +70,6 @@ void writeCloud(const std::string& path,
               formatOf(path, ".pcd") == ".ply" ? plyBytes(cloud) : pcdBytes(cloud));
 }
 
-/** \brief Adds what the front half did to the model file. */
-void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& file) {
-  std::vector<std::pair<std::string, double>> timings = front.timings_ms;
-  double total = 0.0;
-  for (const auto& stage : file.timings_ms)
-    if (stage.first != "total" && stage.first != "load")
-      timings.push_back(stage);
-  for (const auto& stage : timings)
-    total += stage.second;
-  timings.emplace_back("total", total);
-  file.timings_ms = timings;
-  nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
-  const PixelRect& r = front.rect;
-  extra["stereo"] = {
-      {"matcher",
-       !o.depth.empty()                          ? "depth image"
-       : o.stereo.matcher == StereoMatcher::SGBM ? "sgbm"
-                                                 : "bm"},
-      {"refined", o.depth.empty() && o.stereo.refine},
-      {"wls", o.stereo.wls},
-      {"coverage", front.stereo.coverage},
-      {"roi", {r.x, r.y, r.width, r.height}},
-      {"segmented", !front.segment.mask.empty()},
-      {"aperture",
-       {{"near", front.histogram.nearDepth()}, {"far", front.histogram.farDepth()}}},
-      {"camera",
-       {{"fx", front.stereo.intrinsics.fx},
-        {"fy", front.stereo.intrinsics.fy},
-        {"cx", front.stereo.intrinsics.cx},
-        {"cy", front.stereo.intrinsics.cy},
-        {"baseline", front.stereo.intrinsics.baseline}}}};
-  if (!front.notes.empty())
-    extra["stereo"]["notes"] = front.notes;
-  file.extra_json =
-      extra.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 PanelInput panelInput(const FrontResult& front,
                       const LoadedCloud& scene,
                       const LoadedCloud& object,
@@ -159,13 +120,8 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
 }
 
 int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
-  const bool best = model.estimation.decomposition == Decomposition::PARTS;
-  front_options.stereo.matcher =
-      front_options.matcher.value_or(best ? StereoMatcher::SGBM : StereoMatcher::BM);
-  front_options.stereo.refine = front_options.refine.value_or(best);
+  chooseMatcher(model, front_options);
   front_options.mask = model.mask;
-  const bool hinted = !model.roi.empty() || !model.mask.empty() || !model.box.empty() ||
-                      !front_options.click.empty() || !front_options.color.empty();
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
   for (const std::string& input :
@@ -187,24 +143,14 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   for (const std::string& sentence : front.notes)
     note(sentence);
   writeFront(front, outputs);
-  handOver(front, best, model);
-  const LoadedCloud object = toLoadedCloud(*front.stereo.cloud, &front.object);
-  LoadedCloud scene = toLoadedCloud(*front.stereo.cloud, nullptr);
-  if (!front.segment.mask.empty())
-    dropStrays(front, scene);
-  const std::string input =
-      front_options.left.empty() ? front_options.depth : front_options.left;
-  ModelResult result = makeModel(best ? scene : object, input, model, 0.0);
+  StereoModel made = makeStereoModel(front_options, front, model);
   line.clear();
-  if (best)
-    requireBoxFilled(front, result);
-  if (best && !hinted)
-    requireNoDoubt(result);
+  const ModelResult& result = made.result;
   printNotes(result);
-  describeFront(front_options, front, result.file);
-  writeOutputs(object, result, model);
+  writeOutputs(made.object, result, model);
   if (!outputs.panel.empty())
-    writeImage(outputs.panel, drawPanel(panelInput(front, scene, object, result)));
+    writeImage(outputs.panel,
+               drawPanel(panelInput(front, made.scene, made.object, result)));
   if (!quiet())
     printSummary(result);
   return DONE;

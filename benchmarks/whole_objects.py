@@ -32,7 +32,7 @@ import numpy as np
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-CELLS = 88  # of the grid's longest side
+CELLS = 112  # of the grid's longest side
 
 
 def read_mesh(path):
@@ -79,19 +79,28 @@ class Grid:
         self.shape = tuple(len(a) for a in self.axes)
         self.points = np.stack(np.meshgrid(*self.axes, indexing="ij"), -1).reshape(-1, 3)
 
-    def filled(self, solid, up):
-        """What its horizontal sections enclose is added."""
-        filled = np.moveaxis(solid.reshape(self.shape).copy(), up, 0)
+    def cells(self, points):
+        at = np.clip(np.round((points - self.low) / self.step).astype(int), 0,
+                     np.array(self.shape) - 1)
+        return tuple(at.T)
+
+    def filled(self, solid, surface, up):
+        """What its horizontal sections enclose is added; walls may be thinner than a cell."""
+        solid = solid.reshape(self.shape)
+        wall = np.zeros(self.shape, bool)
+        wall[self.cells(surface)] = True
+        filled = np.moveaxis(solid | wall, up, 0)
         for layer in filled:
             ndimage.binary_fill_holes(layer, output=layer)
-        return np.moveaxis(filled, 0, up).reshape(-1)
+        filled = np.moveaxis(filled, 0, up)
+        # cells that the surface only touches are outside where they are next to it
+        rim = filled & ~solid & ndimage.binary_dilation(~filled)
+        return (filled & ~rim).reshape(-1)
 
     def near_outside(self, solid, points, cells):
         """Which points have a place outside of a solid within some cells."""
         wide = ndimage.binary_dilation(~solid.reshape(self.shape), iterations=cells)
-        at = np.clip(np.round((points - self.low) / self.step).astype(int), 0,
-                     np.array(self.shape) - 1)
-        return wide[tuple(at.T)]
+        return wide[self.cells(points)]
 
 
 def material(triangles, grid):
@@ -274,8 +283,8 @@ class Mesh:
             self.surface = self.triangles
             return
         self.material = material(self.triangles, self.grid)
-        self.solid = self.grid.filled(self.material, up)
         self.surface = sample(self.triangles, 200000, rng)
+        self.solid = self.grid.filled(self.material, self.surface, up)
         self.surface = self.surface[self.grid.near_outside(self.solid, self.surface, 2)]
 
     def points(self, count, rng):

@@ -102,6 +102,13 @@ endforeach()
 if(PCL_SQ_BUILD_APPS)
   pcl_sq_debian(apps pcl-sq-apps science "programs" ${libraries})
 endif()
+if(PCL_SQ_BUILD_PYTHON)
+  get_property(minor GLOBAL PROPERTY PCL_SQ_PYTHON_MINOR)
+  math(EXPR next "${minor} + 1") # extensions are of one version of Python
+  pcl_sq_debian(python python3-pcl-sq python "Python\nmodule pcl_sq"
+    "python3 (>= 3.${minor})" "python3 (<< 3.${next})" python3-numpy ${libraries})
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-distributed, python3-open3d")
+endif()
 pcl_sq_debian(doc libpcl-sq-doc doc "documentation, the\nexamples and the API reference")
 set(CPACK_DEBIAN_DOC_PACKAGE_RECOMMENDS libjs-mathjax)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

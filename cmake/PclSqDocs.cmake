@@ -5,7 +5,7 @@ set(doc_dir "${CMAKE_INSTALL_DATADIR}/doc/pcl_sq")
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff
   DESTINATION "${doc_dir}" COMPONENT doc)
 install(DIRECTORY docs examples DESTINATION "${doc_dir}" COMPONENT doc
-  PATTERN "Doxyfile" EXCLUDE PATTERN "*.dox" EXCLUDE)
+  PATTERN "Doxyfile" EXCLUDE PATTERN "*.dox" EXCLUDE PATTERN "conf.py" EXCLUDE)
 install(FILES benchmarks/README.md DESTINATION "${doc_dir}/benchmarks" COMPONENT doc)
 
 if(PCL_SQ_BUILD_DOCS)

@@ -47,6 +47,19 @@ dpkg-deb -c "$core_dev" | grep -E 'pcl_sq/(stereo|visualization)/' &&
   fail "core-dev holds another component's headers"
 holds "$doc" usr/share/doc/pcl_sq/README.md usr/share/doc/pcl_sq/html/index.html \
   usr/share/doc/pcl_sq/examples/01_fit_one.cpp
+if grep -q 'PCL_SQ_BUILD_PYTHON:BOOL=ON' "$build/CMakeCache.txt"; then
+  python=$(package python3-pcl-sq) module=usr/lib/python3/dist-packages/pcl_sq
+  holds "$python" $module/__init__.py $module/py.typed $module/_core.pyi $module/batch.py
+  field "$python" Depends | grep 'python3-numpy' >/dev/null || fail "python3-pcl-sq misses numpy"
+  # as installed, without installing: the packages' files in one folder
+  rm -rf "$build/deb/root"
+  for deb in "$build"/deb/*.deb; do dpkg-deb -x "$deb" "$build/deb/root"; done
+  LD_LIBRARY_PATH="$build/deb/root/$lib" \
+    PYTHONPATH="$build/deb/root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
+    'import pcl_sq; assert pcl_sq.Superquadric([1, 1, 1]).distance([3.0, 0, 0]) == 2' ||
+    fail "python3-pcl-sq does not import"
+  rm -rf "$build/deb/root"
+fi
 # what policy asks of every package, and of the programs' man pages and completion
 programs=$(cd apps && ls pcl_sq_*.cpp)
 for deb in "$build"/deb/*.deb; do

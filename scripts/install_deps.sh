@@ -11,6 +11,9 @@ packages=(
   libgtest-dev libbenchmark-dev libceres-dev
   libx11-dev libgl-dev xvfb libgl1-mesa-dri
   clang-format-14 doxygen help2man python3
+  pybind11-dev python3-dev python3-numpy
+  python3-pytest python3-mypy python3-distributed python3-jsonschema
+  liburdfdom-tools assimp-utils
   "$@"
 )
 

@@ -12,6 +12,7 @@
 
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <iostream>
 #include <mutex>
 #include <new>
@@ -40,6 +41,13 @@ int fail(const std::string& sentence, ExitCode code) {
     shown += '.';
   std::cerr << program_name << ": " << shown << '\n';
   return code;
+}
+
+/** \brief What all programs do to their options once these are added. */
+void finishOptions(CLI::App& cli) {
+  cli.allow_config_extras(CLI::config_extras_mode::error);
+  groupOptions(cli);
+  checkValues(cli);
 }
 
 /** \brief Reads the command line. \return whether there is work to do */
@@ -80,9 +88,7 @@ int runGuarded(int argc,
     cli.add_flag("-q,--quiet", quiet_requested, "No progress, no notes, no summary");
     cli.formatter(std::make_shared<HelpFormat>());
     configure(cli);
-    cli.allow_config_extras(CLI::config_extras_mode::error);
-    groupOptions(cli);
-    checkValues(cli);
+    finishOptions(cli);
     int code = DONE;
     return parse(cli, argc, argv, code) ? body() : code;
   } catch (const UsageError& error) {
@@ -116,6 +122,21 @@ int run(int argc,
   beginProcess();
   return endProcess(
       name, runGuarded(argc, argv, name, description, examples, configure, body));
+}
+
+void parseWords(const std::string& name,
+                const std::function<void(CLI::App&)>& configure,
+                std::vector<std::string> words) {
+  CLI::App cli("", name);
+  configure(cli);
+  finishOptions(cli);
+  std::reverse(words.begin(), words.end()); // as CLI11 takes them
+  try {
+    cli.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(sentenceFor(error, cli));
+  }
+  checkOptionRules(cli);
 }
 
 bool quiet() {

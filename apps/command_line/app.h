@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace pcl_sq::app {
 
@@ -39,6 +40,13 @@ int run(int argc,
         const std::string& examples,
         const std::function<void(CLI::App&)>& configure,
         const std::function<int()>& body);
+
+/** \brief Reads options that no command line brought, with a program's rules: for the
+ * Python module. \param[in] name the program whose options they are \throw UsageError
+ */
+void parseWords(const std::string& name,
+                const std::function<void(CLI::App&)>& configure,
+                std::vector<std::string> words);
 
 /** \brief Whether -q/--quiet was given. */
 bool quiet();

@@ -38,6 +38,9 @@ Shape loadShape(const std::string& path);
  * \throw Failure with one sentence */
 LoadedCloud loadCloud(const std::string& path, const CloudOptions& options = {});
 
+/** \brief As loadCloud(), without telling the user LoadedCloud::notes. */
+LoadedCloud readCloud(const std::string& path, const CloudOptions& options = {});
+
 /** \brief The same from bytes. \throw Failure, without the file's name in it */
 LoadedCloud makeCloud(Shape shape, const CloudOptions& options);
 

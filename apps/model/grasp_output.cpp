@@ -137,6 +137,8 @@ void writeSnapshot(const MultiSuperquadric& model,
   if (scene.cloud.cols() > 0)
     renderer.addCloud(scene.cloud);
   renderer.addModel(model);
+  if (!scene.obstacles.empty())
+    renderer.addMesh(scene.obstacles.meshParts(), {150, 150, 150}, 0.6);
   std::vector<double> reach;
   Eigen::Matrix3Xd contacts(3, Eigen::Index(best.contacts.size()));
   for (int i = 0; i < options.gripper.fingers; ++i) {
@@ -173,6 +175,7 @@ void writeGraspit(const MultiSuperquadric& model,
   settings.grasps = plan.grasps;
   settings.gripper = options.gripper;
   settings.name = options.graspit_name;
+  settings.obstacles = scene.obstacles;
   settings.retreat = options.planner.retreat;
   writeGraspitFolder(options.graspit, settings.name, graspitFiles(model, settings));
 }

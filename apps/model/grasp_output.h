@@ -21,6 +21,7 @@ struct GraspOptions {
   FrameOptions frame;
   std::string output;       ///< grasps as JSON
   std::string snapshot;     ///< picture
+  std::string html;         ///< page to turn
   std::string graspit;      ///< folder for GraspIt!'s files
   std::string graspit_name; ///< of these files; empty: that of the input
   bool part_bodies = false; ///< also one body per part for GraspIt!

@@ -4,6 +4,7 @@
 #include "model/model_json.h"
 
 #include "pcl_sq/roi_estimator.h"
+#include "pcl_sq/scene_estimation.h"
 #include "pcl_sq/stage_timer.h"
 
 #include <algorithm>
@@ -183,6 +184,22 @@ void tellModel(const LoadedCloud& input,
   file.finite_points = input.finite_points;
 }
 
+namespace {
+
+/** \brief Says when what was fitted as one object looks like several. */
+void noteSeveralThings(const LoadedCloud& input, ModelResult& result) {
+  const int things = detail::countThings(
+      result.report.view,
+      coordinatesOf(input),
+      input.has_color ? detail::colorsOf(*input.cloud) : detail::ColorMatrix());
+  if (things > 1)
+    result.report.notes.push_back("the object looks like " + std::to_string(things) +
+                                  " things; pcl_sq_scene tells them apart, a tighter "
+                                  "region or a mask chooses one");
+}
+
+} // namespace
+
 ModelResult makeNearModel(const LoadedCloud& input,
                           const std::string& input_path,
                           const ModelOptions& options,
@@ -215,6 +232,7 @@ ModelResult makeNearModel(const LoadedCloud& input,
   if (!found)
     throw Failure(result.report.failure + ".");
   result.object = *selection.indices;
+  noteSeveralThings(input, result);
   result.report.notes.insert(
       result.report.notes.begin(), input.notes.begin(), input.notes.end());
   tellFrame(input, options, selection.table, result);

@@ -92,6 +92,7 @@ void writeOutputs(const LoadedCloud& input,
   if (!options.snapshot.empty())
     writeSnapshot(options.snapshot, input, result);
 #endif
+  writeExports(options.exported, result.file, &input);
 }
 
 } // namespace pcl_sq::app

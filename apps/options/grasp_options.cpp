@@ -95,6 +95,8 @@ void addGraspOutputOptions(CLI::App& cli, GraspOptions& options) {
   cli.add_flag("--graspit-parts",
                options.part_bodies,
                "One more GraspIt! body for each part, and a world with them");
+  cli.add_option("--html", options.html, "Page to turn in a browser, with the grasps")
+      ->type_name("FILE");
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   cli.add_option("--snapshot", options.snapshot, "Picture with the hand as PNG")
       ->type_name("FILE");
@@ -112,6 +114,7 @@ void checkGraspOptions(const GraspOptions& options) {
   if (!options.graspit.empty())
     claimFolder(options.graspit);
   claimOutput("--snapshot", options.snapshot, {".png"});
+  claimOutput("--html", options.html, {".html", ".htm"});
 }
 
 GraspScene makeScene(const GraspOptions& options,

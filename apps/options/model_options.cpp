@@ -144,6 +144,7 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
                  "Largest |F^(e1/2) - 1| of such a point")
       ->check(positiveNumber(1.0))
       ->capture_default_str();
+  addExportOptions(cli, options.exported);
   cli.add_option("--threads", options.threads, "Number of threads, 0: all cores")
       ->check(wholeNumber(0, 1024))
       ->capture_default_str();
@@ -172,6 +173,7 @@ void checkModelOptions(const ModelOptions& options) {
   claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});
   claimOutput("--grasp-points", options.grasp_points);
   claimOutput("--snapshot", options.snapshot, {".png"});
+  checkExportOptions(options.exported);
 }
 
 } // namespace pcl_sq::app

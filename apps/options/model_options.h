@@ -2,6 +2,7 @@
 #pragma once
 
 #include "files/cloud_io.h"
+#include "model/export_output.h"
 #include "options/frame_options.h"
 
 #include "pcl_sq/fit_tapered.h"
@@ -34,6 +35,7 @@ struct ModelOptions {
   std::string mesh;
   std::string grasp_points;
   std::string snapshot;
+  ExportOptions exported;
 };
 
 /** \brief Adds the options to a program. */

@@ -59,8 +59,9 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
       ->capture_default_str();
   cli.add_option("--max-parts",
                  options.estimation.object_fit.max_parts,
-                 "Largest number of superquadrics that is looked for")
-      ->check(wholeNumber(1, 64))
+                 "Largest number of superquadrics that is looked for; 0: 6 where a "
+                 "camera saw the object, 16 for a cloud from all round")
+      ->check(wholeNumber(0, 64))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_OPENCV
   cli.add_option("--mask", options.mask, "Object's pixels as PNG (organized clouds)")

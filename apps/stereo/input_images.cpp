@@ -72,6 +72,14 @@ void readPair(const std::string& left_path,
   constexpr int AS_IT_IS = cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR;
   left = readImage(left_path, AS_IT_IS);
   right = readImage(right_path, AS_IT_IS);
+  suitMatcher(left_path, right_path, left, right, notes);
+}
+
+void suitMatcher(const std::string& left_path,
+                 const std::string& right_path,
+                 cv::Mat& left,
+                 cv::Mat& right,
+                 std::vector<std::string>& notes) {
   for (cv::Mat* image : {&left, &right})
     if (image->depth() > CV_16U)
       image->convertTo(*image, CV_32F);
@@ -84,7 +92,14 @@ void readPair(const std::string& left_path,
 
 cv::Mat
 readDepth(const std::string& path, double& scale, std::vector<std::string>& notes) {
-  cv::Mat depth = readImage(path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+  return checkedDepth(
+      readImage(path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR), path, scale, notes);
+}
+
+cv::Mat checkedDepth(cv::Mat depth,
+                     const std::string& path,
+                     double& scale,
+                     std::vector<std::string>& notes) {
   if (depth.channels() != 1)
     throw Failure("the depth image '" + path +
                   "' has colours: a picture of depths holds no depths; save the "

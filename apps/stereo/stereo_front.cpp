@@ -29,10 +29,13 @@ CameraIntrinsics givenCamera(const FrontOptions& o) {
 }
 
 StereoResult loadDepth(const FrontOptions& o, std::vector<std::string>& notes) {
-  const cv::Mat color =
-      o.left.empty() ? cv::Mat() : readImage(o.left, cv::IMREAD_COLOR);
+  cv::Mat color = o.left_image;
+  if (color.empty() && !o.left.empty())
+    color = readImage(o.left, cv::IMREAD_COLOR);
   double scale = o.depth_scale;
-  const cv::Mat depth = readDepth(o.depth, scale, notes);
+  const cv::Mat depth = o.depth_image.empty()
+                            ? readDepth(o.depth, scale, notes)
+                            : checkedDepth(o.depth_image, o.depth, scale, notes);
   return reprojectDepth(depth, scale, givenCamera(o), color);
 }
 
@@ -52,7 +55,12 @@ StereoCalibration calibrationFor(const FrontOptions& o, const cv::Mat& image) {
 StereoResult matchPair(const FrontOptions& o, FrontResult& r, StageTimer& timer) {
   cv::Mat left, right;
   timer.run("load", [&] {
-    readPair(o.left, o.right, left, right, r.notes);
+    left = o.left_image;
+    right = o.right_image;
+    if (left.empty())
+      readPair(o.left, o.right, left, right, r.notes);
+    else
+      suitMatcher(o.left, o.right, left, right, r.notes);
     return true;
   });
   StereoReprojector reprojector(calibrationFor(o, left));
@@ -70,7 +78,7 @@ Segment
 findObject(const FrontOptions& o, const std::vector<int>& roi, StereoResult& s) {
   Segment segment;
   if (!o.mask.empty()) {
-    const cv::Mat mask = readMask(o.mask);
+    const cv::Mat mask = o.mask_image.empty() ? readMask(o.mask) : o.mask_image;
     if (mask.cols != static_cast<int>(s.cloud->width) ||
         mask.rows != static_cast<int>(s.cloud->height))
       throw Failure("the mask and the image differ in size; give a mask of " +

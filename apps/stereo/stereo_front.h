@@ -15,7 +15,9 @@ namespace pcl_sq::app {
 
 /** \brief How an object's cloud is got from images. */
 struct FrontOptions {
-  std::string left, right;        ///< images; \a right is empty with \a depth
+  std::string left, right; ///< images; \a right is empty with \a depth
+  /** \brief The same in memory, where they are no files; names are for messages. */
+  cv::Mat left_image, right_image, depth_image, mask_image;
   std::vector<std::string> calib; ///< one or two files
   double calib_unit = 1.0;        ///< of the calibration's lengths [m]
   double baseline = 0.0;          ///< with \a intrinsics instead of \a calib [m]

@@ -9,7 +9,9 @@ namespace pcl_sq {
 
 /** \brief Settings of fitObject(). */
 struct PCL_SQ_EXPORTS ObjectFitOptions {
-  int max_parts = 6;         ///< largest number of parts that is looked for, [1, 64]
+  /** \brief Largest number of parts that is looked for, [0, 64]; 0: 6 where a camera
+   * saw the object, 16 where it is seen from all round. */
+  int max_parts = 0;
   int parts = 0;             ///< number of parts; 0: found, [0, 64]
   int silhouette_lines = 48; ///< per part, [8, 360]
   ViewFitOptions fit;

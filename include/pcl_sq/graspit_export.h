@@ -25,8 +25,9 @@ struct PCL_SQ_EXPORTS GraspitOptions {
   bool part_bodies = false; ///< also one body per part
   bool has_table = false;
   Eigen::Vector3d table_normal = Eigen::Vector3d::UnitZ(); ///< unit, towards the object
-  double table_offset = 0.0; ///< d of normal . p + d = 0 [m]
-  std::vector<Grasp> grasps; ///< candidates for GraspIt!'s grasp tester
+  double table_offset = 0.0;   ///< d of normal . p + d = 0 [m]
+  MultiSuperquadric obstacles; ///< other things about it, as one body that stays
+  std::vector<Grasp> grasps;   ///< candidates for GraspIt!'s grasp tester
   double retreat = 0.1; ///< way back from a grasp to where its line starts [m], >= 0
   Gripper gripper;      ///< that they were planned for
 
@@ -53,6 +54,8 @@ struct PCL_SQ_EXPORTS GraspitOptions {
  * - models/obstacles/NAME_table.xml and .off, with a table: 0.3 mm below the lowest
  *   vertex of the mesh unless that is held up by a tenth of its size, because
  * GraspIt!'s dynamics do not start from bodies that touch;
+ * - models/obstacles/NAME_others.xml and .off, with obstacles: all of them, in the
+ *   cloud's frame;
  * - NAME_grasps.txt, with grasps: one a line, [palm][approach][thumb]spread, as the
  *   planner's dialogue reads it. The palm is \a retreat back from the grasp: the tester
  *   moves the hand along the approach until it touches. The dialogue takes the lines

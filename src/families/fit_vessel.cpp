@@ -27,7 +27,8 @@ constexpr double SEEN_BEHIND = 0.02;
 constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behind
 constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
 constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
-constexpr std::size_t KEPT = 2; ///< starts that are refined
+constexpr std::size_t ROUGH = 6; ///< starts that are fitted, of all
+constexpr std::size_t KEPT = 2;  ///< of those that are refined
 
 struct Vessel {
   Superquadric model;
@@ -153,6 +154,17 @@ double nearShare(const UnitPoints& points, double reach, const Superquadric& bod
   return near / double(points.size());
 }
 
+/** \brief Share of the points inside of a body, by more than noise. */
+double deepShare(const UnitPoints& points, double sigma, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  const auto deep =
+      std::count_if(distances.begin(),
+                    distances.begin() + std::ptrdiff_t(points.size()),
+                    [&](float d) { return double(d) < -RESOLVED * sigma; });
+  return double(deep) / double(points.size());
+}
+
 /** \brief A vessel beside a solid where nobody knows the noise: that of points on both
  * sides of a wall looks as large as the wall is thick. Each has the noise that it
  * leaves, sigma, and -2 ln L is 2 n ln sigma. */
@@ -173,9 +185,11 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
       nearShare(points, STANDS_OFF * std::max(own, MODEL_ERROR), vessel.model) <
           EXPLAINED)
     return std::nullopt;
-  const double gain = 2.0 * problem.observations() *
-                      std::log(scatterOf(points, sigma, solid.model) /
-                               scatterOf(points, own, vessel.model));
+  // a solid between the two sides of a wall is off the points by as much
+  const double gain =
+      2.0 * problem.observations() *
+      std::log(scatterOf(points, std::max(sigma, vessel.model.wall), solid.model) /
+               scatterOf(points, own, vessel.model));
   ShapeCandidate c = candidateOf(vessel, problem);
   c.bic += solid.cost - gain - c.cost;
   c.cost = std::min(problem.observations(), solid.cost);
@@ -225,6 +239,8 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     return std::nullopt;
   if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
+  if (!problem.eye() && deepShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
+    return std::nullopt;
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
     axes.push_back(problem.up());
@@ -237,7 +253,11 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   std::vector<Vessel> found;
   for (const Eigen::Vector3d& axis : axes)
     for (const Superquadric& start : vesselStarts(problem, axis))
-      found.push_back(rough.fit({start, 0.0, problem.hasUp()}, SEARCH_ITERATIONS));
+      found.push_back(rough.fit({start, 0.0, problem.hasUp()}, 0));
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), ROUGH));
+  for (Vessel& v : found)
+    v = rough.fit(v, SEARCH_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   const VesselFamily thorough(problem, problem.medium(), sigma);

@@ -110,13 +110,27 @@ double longestSide(const TriangleMesh& mesh) {
   return box.sizes().maxCoeff();
 }
 
+/** \brief Adds the files of a body that stays where it is; returns the world's element.
+ */
+std::string addObstacle(const std::string& name,
+                        const TriangleMesh& mesh,
+                        const std::string& transform,
+                        std::vector<TextFile>& files) {
+  const std::string folder = "models/obstacles/";
+  files.push_back({folder + name + ".xml",
+                   "<?xml version=\"1.0\" ?>\n<root>\n\t<material>wood</material>\n"
+                   "\t<geometryFile type=\"off\">" +
+                       name + ".off</geometryFile>\n</root>\n"});
+  files.push_back({folder + name + ".off", detail::offText(mesh)});
+  return elementXml("obstacle", folder + name + ".xml", transform);
+}
+
 /** \brief Adds the files of the table under a mesh about \a center; returns the world's
  * element. */
 std::string addTable(const GraspitOptions& options,
                      const TriangleMesh& mesh,
                      const Eigen::Vector3d& center,
                      std::vector<TextFile>& files) {
-  const std::string folder = "models/obstacles/", name = options.name + "_table";
   const Eigen::Vector3d& up = options.table_normal;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& v : mesh.vertices)
@@ -130,14 +144,10 @@ std::string addTable(const GraspitOptions& options,
   OrientedBox plate; // its upper face in the body's x-y plane
   plate.half_sizes = 0.5 * Eigen::Vector3d(TABLE_SIZE, TABLE_SIZE, TABLE_THICKNESS);
   plate.center.z() = -plate.half_sizes.z();
-  files.push_back({folder + name + ".xml",
-                   "<?xml version=\"1.0\" ?>\n<root>\n\t<material>wood</material>\n"
-                   "\t<geometryFile type=\"off\">" +
-                       name + ".off</geometryFile>\n</root>\n"});
-  files.push_back({folder + name + ".off", detail::offText(meshBox(plate))});
-  return elementXml("obstacle",
-                    folder + name + ".xml",
-                    graspitTransform(frameAlong(up), center + up * height));
+  return addObstacle(options.name + "_table",
+                     meshBox(plate),
+                     graspitTransform(frameAlong(up), center + up * height),
+                     files);
 }
 
 } // namespace
@@ -180,9 +190,10 @@ std::vector<TextFile> graspitFiles(const MultiSuperquadric& model,
                                    const GraspitOptions& options) {
   if (model.empty() || !options.isValid())
     return {};
-  for (const Superquadric& part : model.parts)
-    if (!part.isValid())
-      return {};
+  for (const MultiSuperquadric* bodies : {&model, &options.obstacles})
+    for (const Superquadric& part : bodies->parts)
+      if (!part.isValid())
+        return {};
   const std::string objects = "models/objects/";
   const MassProperties mass = massProperties(model);
   const MultiSuperquadric body = about(model, mass.center);
@@ -196,6 +207,12 @@ std::vector<TextFile> graspitFiles(const MultiSuperquadric& model,
       {objects + "primitives/" + options.name + ".iv", detail::primitivesText(body)});
   const std::string around =
       (options.has_table ? addTable(options, mesh, mass.center, files) : "") +
+      (options.obstacles.empty()
+           ? ""
+           : addObstacle(options.name + "_others",
+                         meshOf(options.obstacles, options),
+                         graspitTransform(upright, Eigen::Vector3d::Zero()),
+                         files)) +
       cameraXml(mass.center,
                 options.has_table ? options.table_normal
                                   : Eigen::Vector3d(Eigen::Vector3d::UnitZ()));

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t LOWEST = 20; ///< each how many-th of the object's pixels is low
 constexpr int STEPS = 8;           ///< from a low point down to the table
+constexpr int BENEATH = 8;         ///< pixels beneath a low point that are looked at
 constexpr double SEEN = 0.5;       ///< of the low points, below which the table is seen
 
 } // namespace
@@ -61,14 +62,32 @@ void findFoot(Observation& o, const CellRect& box, int rim) {
     return o.finite(c) &&
            out.camera.depthOf(o.at(c)) > depth + standingHeight(table, depth);
   };
-  std::size_t seen = 0;
-  for (const auto& [height, column] : heights)
+  // another thing begins just beneath, at the same depth: it carries the object
+  const auto rests = [&](int column) {
+    const Eigen::Vector3d p = o.at(column);
+    const double depth = out.camera.depthOf(p);
+    const double pixel = depth / std::sqrt(out.camera.fx * out.camera.fy);
+    for (int k = 1; k <= BENEATH; ++k) {
+      const Eigen::Vector2d at = out.camera.project(p - k * pixel * table.normal);
+      const int x = int(std::lround(at.x())), y = int(std::lround(at.y()));
+      if (!o.view.others(x, y) || !o.finite(y * o.width + x))
+        continue;
+      return out.camera.depthOf(o.at(y * o.width + x)) >
+             depth - standingHeight(table, depth);
+    }
+    return false;
+  };
+  std::size_t seen = 0, resting = 0;
+  for (const auto& [height, column] : heights) {
+    resting += rests(column);
     for (int k = 1; k <= STEPS; ++k)
       if (seenThrough(o.at(column) - height * k / STEPS * table.normal)) {
         ++seen;
         break;
       }
-  out.hidden_below = double(seen) < SEEN * double(low);
+  }
+  out.hidden_below =
+      double(seen) < SEEN * double(low) && double(resting) < SEEN * double(low);
   // a pixel's height on an upright wall
   const Eigen::Vector3d ray =
       (out.points.rowwise().mean() - out.camera.center).normalized();

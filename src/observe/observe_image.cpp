@@ -113,7 +113,8 @@ bool observeImage(Observation& o, std::string& why) {
   else if (!out.table && o.view.find_table)
     findTable(o, box);
   checkTable(out);
-  if (!has_mask) // its pixels end above the table
+  // its pixels end above the table, or at what hides them
+  if (!has_mask || !o.view.others.cells.empty())
     findFoot(o, box, rim);
   findFreeSpace(o, box, FREE_MARGIN + (has_mask ? 0 : rim));
   findGap(o, box);

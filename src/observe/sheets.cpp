@@ -22,6 +22,10 @@ constexpr double BEYOND = 4.0; ///< sigmas of another sheet from the own one
 constexpr std::size_t FEWEST = 5;
 constexpr double EVEN = 0.25;  ///< mean deviation of another sheet, over its distance
 constexpr double BESIDE = 0.5; ///< of its middle across the normal, over the radius
+/** \brief Share of the surface that is smooth at the least: legs and edges bend within
+ * a neighbourhood. What that quantile of the scatters of NEIGHBOURS points of one noise
+ * is to their middle. */
+constexpr double SMOOTH = 0.2, OF_SMOOTH = 0.89;
 constexpr Eigen::Index LOOKED_AT = 200;
 /** \brief Share of doubled sheets from which on the points are those of two sides: in
  * one view they are chance. */
@@ -122,7 +126,11 @@ double noiseOf(const std::vector<Sheet>& sheets) {
   for (const Sheet& s : sheets)
     if (s.scatter >= 0.0)
       scatters.push_back(s.scatter);
-  return scatters.empty() ? 0.0 : median(std::move(scatters));
+  if (scatters.empty())
+    return 0.0;
+  const auto at = scatters.begin() + std::ptrdiff_t(SMOOTH * double(scatters.size()));
+  std::nth_element(scatters.begin(), at, scatters.end());
+  return *at / OF_SMOOTH;
 }
 
 double doubled(const std::vector<Sheet>& sheets) {

@@ -23,7 +23,7 @@ struct Sheet {
 /** \brief The sheets about every \a step-th point. */
 std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points, Eigen::Index step);
 
-/** \brief Noise of independent points: the middle one of the sheets' scatters [m]. */
+/** \brief Noise of independent points, from the sheets that scatter least [m]. */
 double noiseOf(const std::vector<Sheet>& sheets);
 
 /** \brief Share of the sheets that have another one beyond them. */

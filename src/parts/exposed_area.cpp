@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/whole_cloud.h"
+#include "parts/exposed_area.h"
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/triangle_mesh.h"
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int CELLS = 8; ///< per edge of an octant of the cube projected onto a part
+constexpr int CELLS = 7; ///< per edge of an octant of the cube projected onto a part
 constexpr int OCTANT = 3 * CELLS * CELLS;
-
-/** \brief A surface in small pieces. */
-struct SurfaceCells {
-  Eigen::Matrix3Xd middles{3, 8 * OCTANT};
-  Eigen::ArrayXd areas{8 * OCTANT};
-};
 
 /** \brief Of a body with a rim: the triangles of its mesh. */
 SurfaceCells meshCells(const Superquadric& part) {
@@ -38,17 +35,30 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
+} // namespace
+
 SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
-  const double volume = part.semi_axes.prod() / (CELLS * CELLS);
+  cells.middles.resize(3, 8 * OCTANT);
+  cells.areas.resize(8 * OCTANT);
+  // Gauss's nodes are dense at the cube's edges, where small exponents bend the surface
+  using Rule = boost::math::quadrature::gauss<double, CELLS>;
+  std::array<double, CELLS> node, weight;
+  for (int i = 0; i < CELLS; ++i) {
+    const auto k = std::size_t(std::abs(i - CELLS / 2));
+    node[std::size_t(i)] = 0.5 + (i < CELLS / 2 ? -0.5 : 0.5) * Rule::abscissa()[k];
+    weight[std::size_t(i)] = 0.5 * Rule::weights()[k];
+  }
   for (int c = 0; c < OCTANT; ++c) {
     const int face = c / (CELLS * CELLS);
     Eigen::Vector3d d;
     d[face] = 1.0;
-    d[(face + 1) % 3] = (c % CELLS + 0.5) / CELLS;
-    d[(face + 2) % 3] = (c / CELLS % CELLS + 0.5) / CELLS;
+    const auto u = std::size_t(c % CELLS), v = std::size_t(c / CELLS % CELLS);
+    d[(face + 1) % 3] = node[u];
+    d[(face + 2) % 3] = node[v];
+    const double volume = part.semi_axes.prod() * weight[u] * weight[v];
     const Eigen::Vector3d local = d.cwiseProduct(part.semi_axes);
     const LogGauge g = logGauge(local, part.semi_axes, part.epsilon1, part.epsilon2);
     // the cone over a cell of the cube's face has three times the volume of its part
@@ -71,8 +81,6 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   return cells;
 }
 
-} // namespace
-
 void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,
                 const Eigen::ArrayXd& reach,
@@ -84,6 +92,18 @@ void keepNearer(const Superquadric& body,
     const Eigen::Vector3d outside = (local.cwiseAbs() - body.halfSizes()).cwiseMax(0.0);
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
+  }
+  if (body.isTapered() && !body.isCut()) {
+    // where it matters, at the surface, the first-order distance is as good
+    for (const Eigen::Index i : near) {
+      const Place place = placeOf(body, turn * (points.col(i) - body.center));
+      const double slope = logGradient(body, place).norm();
+      const double distance =
+          slope > 0.0 ? place.gauge.value / slope : -body.semi_axes.minCoeff();
+      if (distance < distances[i])
+        distances[i] = distance;
+    }
+    return;
   }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)

@@ -2,8 +2,10 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "observe/sheets.h"
 #include "parts/outline_gaps.h"
 #include "parts/split_view.h"
+#include "parts/union_score.h"
 #include "parts/whole_cloud.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
@@ -24,6 +26,9 @@ constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own er
 constexpr double MOST_UNEXPLAINED = 0.05;
 /** \brief Share of a vessel's points that may be its handle's. */
 constexpr double MOST_OF_HANDLE = 0.15;
+/** \brief Share of a vessel's surface that has points: between a table's legs are none.
+ */
+constexpr double MOSTLY = 0.8;
 constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
 constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
 /** \brief Things are no superquadrics: their surface's distance to the best one, over
@@ -32,6 +37,9 @@ constexpr double MODEL_ERROR = 0.005;
 /** \brief What a depth image's neighbours share and their scatter does not show, over
  * the depth: locking to whole pixels, smoothing over the matched window. */
 constexpr double SENSOR_ERROR = 7e-4;
+/** \brief Parts that are looked for where the options leave it open. */
+constexpr int MOST_IN_VIEW = 6, MOST_ALL_ROUND = 16;
+constexpr Eigen::Index NOISE_SAMPLES = 200;
 /** \brief By how much measurements lie beside their pixels [px]: what a matching window
  * takes from its side nearer to the camera, a depth camera's lateral noise. */
 constexpr double SIDEWAYS = 0.5;
@@ -68,7 +76,8 @@ TangentPlane backOf(const ViewFit& whole, const ObservedObject& observed) {
 /** \brief A vessel seen from all round, and its handle. \return whether it explains the
  * cloud: a bottle's body is a vessel as well, its neck is no handle */
 bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
-  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL)
+  if (pieces[0].fit.chosen.shape != ShapeClass::VESSEL ||
+      covered(context, pieces[0].fit.fit.model) < MOSTLY)
     return false;
   // not what points on both sides of its wall seemed to have
   const double noise = context.noise;
@@ -103,7 +112,12 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
       context.observed, options, context.noise, context.precision, context.limits};
   if (whole.fit.chosen.shape == ShapeClass::VESSEL)
     fitPiece(solids, whole, Effort::AGAIN);
-  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  return fitOutside(
+      solids,
+      splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain),
+      wanted,
+      exactly,
+      min_gain);
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of
@@ -154,7 +168,7 @@ double medianNoise(const ObservedObject& observed) {
 
 bool ObjectFitOptions::isValid(std::string* why) const {
   OptionCheck check(why);
-  check.inRange("max_parts", max_parts, 1, 64);
+  check.inRange("max_parts", max_parts, 0, 64);
   check.inRange("parts", parts, 0, 64);
   check.inRange("silhouette_lines", silhouette_lines, 8, 360);
   check.require(fit.precision.empty(),
@@ -172,10 +186,15 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : curvedNoise(observed.points);
+                : noiseOf(sheetsOf(observed.points,
+                                   std::max<Eigen::Index>(
+                                       1, observed.points.cols() / NOISE_SAMPLES)));
   PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
-  const int wanted = options.parts > 0 ? options.parts : options.max_parts;
+  const int wanted = options.parts > 0       ? options.parts
+                     : options.max_parts > 0 ? options.max_parts
+                     : observed.hasCamera()  ? MOST_IN_VIEW
+                                             : MOST_ALL_ROUND;
   const bool split = wanted > 1 && (noise > 0.0 || options.parts > 0);
   std::vector<Piece> pieces(1, wholePiece(context));
   // where parts are compared, the first fit but tells the noise; bare points of one
@@ -202,7 +221,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
     } else if (!fitWholeVessel(context, pieces))
       pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
-    finish(context, pieces);
+    if (observed.hasCamera())
+      finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {

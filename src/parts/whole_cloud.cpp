@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/whole_cloud.h"
 
+#include "parts/union_score.h"
+#include "util/cloud_graph.h"
 #include "util/parallel_for.h"
-#include "view_problem/plane_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,202 +12,293 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t TRIED = 3; ///< best proposals that are fitted in full
 constexpr std::size_t MIN_POINTS = 24;
-constexpr int ROUNDS = 3; ///< of assigning points and fitting again
-/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
-constexpr double OUTLIER = 0.01;
-/** \brief Distance over the noise from which on a point costs the same, to the last
- * digit. */
-constexpr double OUTLYING = 9.0;
+constexpr std::size_t KEPT = 3;  ///< ways to cut a part that are remembered
+constexpr std::size_t TRIED = 3; ///< best ways of all parts that are fitted in full
+constexpr int ROUNDS = 3;        ///< of assigning points and fitting again
 /** \brief Score by which a quick fit, to a sample of the points, may be worse than what
  * the full one is to beat. */
 constexpr double QUICK_SLACK = 60.0;
+/** \brief Steps that are taken although they do not pay: one cut of a handle with two
+ * corners, or of a table with legs at its corners, helps little. */
+constexpr int PATIENCE = 2;
+constexpr double OFF = 4.0; ///< noise that a point lies off a body it is not of
 
-/** \brief A description of the object and its score, smaller is better. */
-struct Parts {
-  std::vector<Piece> pieces;
-  double score = 1e300;
-  std::size_t cut = 0; ///< the piece that was cut last, the last one being its rest
+/** \brief Parts that may take another's place, quickly fitted. */
+struct Way {
+  std::vector<Part> parts;
+  double gain = -1e300; ///< of the score, by quick fits
 };
 
-/** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price.
- *
- * Points are spread evenly over the outer surface, with noise: a surface without points
- * costs as much as points without a surface. */
-double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
-  const ObservedObject& o = context.observed;
-  // the smallest signed distance is that to the union
-  Eigen::VectorXd distances = Eigen::VectorXd::Constant(o.points.cols(), 1e300);
-  const Eigen::ArrayXd reach =
-      Eigen::ArrayXd::Constant(distances.size(), OUTLYING * context.noise);
-  std::vector<Superquadric> bodies;
-  double parameters = 0.0, demand = 0.0;
-  for (const Piece& piece : pieces) {
-    if (!piece.fit.fit.ok())
-      return 1e300;
-    bodies.push_back(piece.fit.fit.model);
-    keepNearer(bodies.back(), o.points, reach, distances);
-    parameters += piece.fit.chosen.parameters;
-    if (bodies.back().isTapered())
-      demand += TAPER;
-    if (bodies.back().isBent())
-      demand += BENT;
+/** \brief A part and the ways to cut it, once they have been looked for. */
+struct Member {
+  Part part;
+  std::shared_ptr<const std::vector<Way>> ways;
+};
+
+/** \brief A description of the object and its score, smaller is better. */
+struct Description {
+  std::vector<Member> members;
+  double score = 1e300;
+};
+
+class WholeSearch {
+public:
+  WholeSearch(const PieceContext& context, int wanted, bool exactly, double min_gain)
+      : context_(context), graph_(context.observed.points), wanted_(wanted),
+        exactly_(exactly), min_gain_(min_gain), threads_(context.options.fit.threads) {}
+
+  std::vector<Piece> run(Piece whole);
+
+private:
+  double score(const std::vector<Member>& members) const {
+    std::vector<const Part*> parts;
+    for (const Member& m : members)
+      parts.push_back(&m.part);
+    return scoreOf(context_, parts);
   }
-  double cost = 0.0;
-  for (Eigen::Index i = 0; i < distances.size(); ++i) {
-    const double z = distances[i] / context.noise;
-    cost -= 2.0 * std::log((std::exp(-0.5 * z * z) + OUTLIER) / (1.0 + OUTLIER));
+  double scoreWith(const Description& d, std::size_t k, const Way& way) const {
+    std::vector<const Part*> parts;
+    for (std::size_t i = 0; i < d.members.size(); ++i)
+      if (i != k)
+        parts.push_back(&d.members[i].part);
+    for (const Part& p : way.parts)
+      parts.push_back(&p);
+    return scoreOf(context_, parts);
   }
-  const double area = exposedArea(bodies) / (o.extent * o.extent);
-  return (cost / double(distances.size()) + 2.0 * std::log(area)) * o.effective_points +
-         parameters * std::log(1.0 + o.effective_points) + demand;
+  std::vector<Way> proposals(const Part& part) const;
+  void findWays(Description& d, std::size_t k) const;
+  void settle(Description& d) const;
+  Description step(Description& d) const;
+  bool mergeOnce(Description& d) const;
+
+  const PieceContext& context_;
+  CloudGraph graph_;
+  int wanted_;
+  bool exactly_;
+  double min_gain_;
+  unsigned int threads_;
+};
+
+/** \brief Pieces of a part: both sides of planes, its limbs, what lies off its body. */
+std::vector<Way> WholeSearch::proposals(const Part& part) const {
+  std::vector<Way> ways;
+  for (const Cut& cut : proposeCuts(context_, part.piece)) {
+    Way way;
+    for (const Cut& side : {cut, cut.flipped()}) {
+      way.parts.emplace_back();
+      way.parts.back().piece = cutPiece(context_, part.piece, side);
+    }
+    ways.push_back(std::move(way));
+  }
+  const auto add = [&](const std::vector<Segment>& segments) {
+    Way way;
+    for (const Segment& s : segments) {
+      way.parts.emplace_back();
+      way.parts.back().piece.points = s;
+    }
+    ways.push_back(std::move(way));
+  };
+  const Segment& points = part.piece.points;
+  for (const auto& segments :
+       graph_.limbs(points, part.piece.fit.fit.model.rotation, MIN_POINTS))
+    add(segments);
+  Segment off, on;
+  for (const int i : points)
+    (std::abs(distanceOf(part, i)) > OFF * context_.noise ? off : on).push_back(i);
+  std::vector<Segment> residual;
+  for (Segment& component : graph_.components(off))
+    if (component.size() >= MIN_POINTS)
+      residual.push_back(std::move(component));
+    else
+      on.insert(on.end(), component.begin(), component.end());
+  if (!residual.empty() && on.size() >= MIN_POINTS) {
+    residual.push_back(on);
+    add(residual);
+  }
+  return ways;
 }
 
-/** \brief Gives each point to the part with the nearest surface; a part keeps what
- * noise cannot tell. \return whether a point changed its part and no part lost nearly
- * all */
-bool assignPoints(const PieceContext& context, std::vector<Piece>& pieces) {
-  const Eigen::Index n = context.observed.points.cols();
-  Eigen::VectorXd nearest = Eigen::VectorXd::Constant(n, 1e300);
-  std::vector<std::size_t> owner(static_cast<std::size_t>(n), 0);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    Eigen::VectorXd distances =
-        surfaceDistances(pieces[k].fit.fit.model, context.observed.points).cwiseAbs();
-    for (const int i : pieces[k].points)
-      distances[i] -= context.noise;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (distances[i] < nearest[i]) {
-        nearest[i] = distances[i];
-        owner[static_cast<std::size_t>(i)] = k;
-      }
-  }
-  std::vector<std::vector<int>> points(pieces.size());
-  bool changed = false;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    for (const int i : pieces[k].points) {
-      points[owner[static_cast<std::size_t>(i)]].push_back(i);
-      changed = changed || owner[static_cast<std::size_t>(i)] != k;
-    }
-  for (const auto& list : points)
-    if (list.size() < MIN_POINTS)
-      return false;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    pieces[k].points.swap(points[k]);
-  return changed;
+/** \brief Looks for the ways to cut a member, the best ones first. */
+void WholeSearch::findWays(Description& d, std::size_t k) const {
+  Member& member = d.members[k];
+  if (member.ways)
+    return;
+  std::vector<Way> ways = proposals(member.part);
+  const auto room = std::size_t(std::max(0, wanted_ - int(d.members.size()) + 1));
+  ways.erase(std::remove_if(ways.begin(),
+                            ways.end(),
+                            [&](const Way& way) {
+                              return way.parts.size() > room ||
+                                     std::any_of(way.parts.begin(),
+                                                 way.parts.end(),
+                                                 [](const Part& p) {
+                                                   return p.piece.points.size() <
+                                                          MIN_POINTS;
+                                                 });
+                            }),
+             ways.end());
+  std::vector<std::pair<std::size_t, std::size_t>> fits;
+  for (std::size_t w = 0; w < ways.size(); ++w)
+    for (std::size_t p = 0; p < ways[w].parts.size(); ++p)
+      fits.emplace_back(w, p);
+  parallelFor(fits.size(), threads_, [&](std::size_t i) {
+    fitPart(context_, ways[fits[i].first].parts[fits[i].second], Effort::QUICK);
+  });
+  parallelFor(ways.size(), threads_, [&](std::size_t w) {
+    ways[w].gain = d.score - scoreWith(d, k, ways[w]);
+  });
+  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
+    return a.gain > b.gain;
+  });
+  if (ways.size() > KEPT)
+    ways.resize(KEPT);
+  member.ways = std::make_shared<const std::vector<Way>>(std::move(ways));
 }
 
 /** \brief Gives points to the nearest part and fits the parts again while that pays. */
-void settle(const PieceContext& context, Parts& parts) {
-  parts.score = scoreOf(context, parts.pieces);
-  for (int round = 0; round < ROUNDS && parts.score < 1e299; ++round) {
-    Parts next = parts;
-    if (!assignPoints(context, next.pieces))
+void WholeSearch::settle(Description& d) const {
+  d.score = score(d.members);
+  for (int round = 0; round < ROUNDS && d.score < 1e299; ++round) {
+    std::vector<Part> parts;
+    for (const Member& m : d.members)
+      parts.push_back(m.part);
+    if (!assignPoints(context_, parts))
       return;
-    for (std::size_t k = 0; k < next.pieces.size(); ++k)
-      if (next.pieces[k].points != parts.pieces[k].points)
-        fitPiece(context, next.pieces[k], Effort::AGAIN);
-    next.score = scoreOf(context, next.pieces);
-    if (!(next.score < parts.score))
-      return;
-    parts = std::move(next);
-  }
-}
-
-/** \brief The best way to cut one of the parts in two; score 1e300 if there is none. */
-Parts bestSplit(const PieceContext& context,
-                const Parts& parts,
-                std::size_t which,
-                double limit) {
-  const std::vector<Cut> cuts = proposeCuts(context, parts.pieces[which]);
-  const unsigned int threads = context.options.fit.threads;
-  std::vector<Parts> tries(cuts.size());
-  parallelFor(cuts.size(), threads, [&](std::size_t i) {
-    Piece first = cutPiece(context, parts.pieces[which], cuts[i]);
-    Piece second = cutPiece(context, parts.pieces[which], cuts[i].flipped());
-    if (first.points.empty() || second.points.empty())
-      return;
-    fitPiece(context, first, Effort::QUICK);
-    fitPiece(context, second, Effort::QUICK);
-    tries[i] = parts;
-    tries[i].cut = which;
-    tries[i].pieces[which] = std::move(first);
-    tries[i].pieces.push_back(std::move(second));
-    tries[i].score = scoreOf(context, tries[i].pieces);
-  });
-  const auto better = [](const Parts& a, const Parts& b) { return a.score < b.score; };
-  std::sort(tries.begin(), tries.end(), better);
-  while (!tries.empty() && (tries.size() > TRIED || tries.back().score > limit))
-    tries.pop_back();
-  // half a try at a time: few are left, and the threads should end together
-  parallelFor(2 * tries.size(), threads, [&](std::size_t i) {
-    std::vector<Piece>& pieces = tries[i / 2].pieces;
-    fitPiece(context, i % 2 == 0 ? pieces[which] : pieces.back(), Effort::FULL);
-  });
-  parallelFor(tries.size(), threads, [&](std::size_t i) { settle(context, tries[i]); });
-  const auto best = std::min_element(tries.begin(), tries.end(), better);
-  return best == tries.end() ? Parts() : std::move(*best);
-}
-
-/** \brief Cuts the part for which that pays most, or one twice where only that pays:
- * one cut of a handle with two corners helps little. \param[in] room how many parts may
- * be added \return whether one was cut */
-bool splitOnce(
-    const PieceContext& context, Parts& parts, int room, bool forced, double min_gain) {
-  Parts best;
-  for (std::size_t k = 0; k < parts.pieces.size(); ++k) {
-    if (parts.pieces[k].final && !forced)
-      continue;
-    Parts split =
-        bestSplit(context, parts, k, forced ? 1e299 : parts.score + QUICK_SLACK);
-    if (split.score < best.score)
-      best = split;
-    if (!(split.score < parts.score - min_gain))
-      parts.pieces[k].final = true;
-  }
-  const double limit = forced ? 1e299 : parts.score - min_gain;
-  if (best.pieces.empty() || !(best.score <= limit)) {
-    if (forced || room < 2 || best.pieces.empty())
-      return false;
-    const std::size_t second = best.pieces.size() - 1;
-    Parts twice;
-    for (const std::size_t k : {best.cut, second})
-      if (Parts split = bestSplit(context, best, k, best.score);
-          split.score < twice.score)
-        twice = std::move(split);
-    if (twice.score > limit - min_gain)
-      return false;
-    best = std::move(twice);
-  }
-  for (std::size_t k = 0; k < parts.pieces.size(); ++k)
-    best.pieces[k].final =
-        parts.pieces[k].final && best.pieces[k].points == parts.pieces[k].points;
-  parts = std::move(best);
-  return true;
-}
-
-/** \brief Makes two parts one where that costs less than the gain of one more part.
- * \return whether it did */
-bool mergeOnce(const PieceContext& context, Parts& parts, double min_gain) {
-  Parts best;
-  for (std::size_t i = 0; i < parts.pieces.size(); ++i)
-    for (std::size_t j = i + 1; j < parts.pieces.size(); ++j) {
-      Parts next = parts;
-      next.pieces[i] = mergePieces(parts.pieces[i], parts.pieces[j]);
-      next.pieces.erase(next.pieces.begin() + std::ptrdiff_t(j));
-      fitPiece(context, next.pieces[i], Effort::QUICK);
-      next.score = scoreOf(context, next.pieces);
-      if (next.score > parts.score + min_gain + QUICK_SLACK)
-        continue;
-      fitPiece(context, next.pieces[i], Effort::FULL);
-      settle(context, next);
-      if (next.score < best.score)
-        best = std::move(next);
+    Description next;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      next.members.push_back(d.members[k]);
+      if (parts[k].piece.points != d.members[k].part.piece.points) {
+        fitPart(context_, parts[k], Effort::AGAIN);
+        next.members.back() = {std::move(parts[k]), nullptr};
+      }
     }
-  if (!(best.score < parts.score + min_gain))
+    next.score = score(next.members);
+    if (!(next.score < d.score))
+      return;
+    d = std::move(next);
+  }
+}
+
+/** \brief The best description with one of the members cut; score 1e300 if none can
+ * be. */
+Description WholeSearch::step(Description& d) const {
+  struct Choice {
+    std::size_t member, way;
+    double gain;
+  };
+  std::vector<Choice> choices;
+  for (std::size_t k = 0; k < d.members.size(); ++k) {
+    findWays(d, k);
+    for (std::size_t w = 0; w < d.members[k].ways->size(); ++w) {
+      const Way& way = (*d.members[k].ways)[w];
+      if (way.gain > -1e299 && int(d.members.size() + way.parts.size()) <= wanted_ + 1)
+        choices.push_back({k, w, way.gain});
+    }
+  }
+  std::stable_sort(choices.begin(),
+                   choices.end(),
+                   [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
+  while (!choices.empty() &&
+         (choices.size() > TRIED ||
+          choices.back().gain < choices.front().gain - 4.0 * QUICK_SLACK))
+    choices.pop_back();
+  std::vector<Description> tries(choices.size());
+  parallelFor(choices.size(), threads_, [&](std::size_t i) {
+    const Choice& c = choices[i];
+    std::vector<Member>& members = tries[i].members;
+    members = d.members;
+    const std::vector<Part>& parts = (*d.members[c.member].ways)[c.way].parts;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      Member member{parts[p], nullptr};
+      fitPart(context_, member.part, Effort::AGAIN);
+      if (p == 0)
+        members[c.member] = std::move(member);
+      else
+        members.push_back(std::move(member));
+    }
+    tries[i].score = score(members);
+  });
+  double least = 1e299;
+  for (const Description& t : tries)
+    least = std::min(least, t.score);
+  parallelFor(tries.size(), threads_, [&](std::size_t i) {
+    if (tries[i].score < least + QUICK_SLACK)
+      settle(tries[i]);
+  });
+  Description best;
+  for (Description& t : tries)
+    if (t.score < best.score)
+      best = std::move(t);
+  return best;
+}
+
+/** \brief Makes two neighbours one where that costs less than the gain of one more
+ * part. \return whether it did */
+bool WholeSearch::mergeOnce(Description& d) const {
+  std::vector<Description> tries;
+  for (std::size_t i = 0; i < d.members.size(); ++i)
+    for (std::size_t j = i + 1; j < d.members.size(); ++j) {
+      const Piece &a = d.members[i].part.piece, &b = d.members[j].part.piece;
+      if (!graph_.touch(a.points, b.points))
+        continue;
+      Description next = d;
+      next.members[i].part.piece = mergePieces(a, b);
+      next.members[i].ways = nullptr;
+      next.members.erase(next.members.begin() + std::ptrdiff_t(j));
+      next.score = double(i);
+      tries.push_back(std::move(next));
+    }
+  Description best;
+  std::vector<std::size_t> merged(tries.size());
+  parallelFor(tries.size(), threads_, [&](std::size_t t) {
+    merged[t] = std::size_t(tries[t].score);
+    fitPart(context_, tries[t].members[merged[t]].part, Effort::QUICK);
+    tries[t].score = score(tries[t].members);
+    if (tries[t].score > d.score + min_gain_ + QUICK_SLACK) {
+      tries[t].score = 1e300;
+      return;
+    }
+    fitPart(context_, tries[t].members[merged[t]].part, Effort::FULL);
+    settle(tries[t]);
+  });
+  for (Description& t : tries)
+    if (t.score < best.score)
+      best = std::move(t);
+  if (!(best.score < d.score + min_gain_))
     return false;
-  parts = std::move(best);
+  d = std::move(best);
   return true;
+}
+
+std::vector<Piece> WholeSearch::run(Piece whole) {
+  Description now;
+  now.members.emplace_back();
+  now.members[0].part.piece = std::move(whole);
+  traceAgain(context_, now.members[0].part);
+  now.score = score(now.members);
+  Description best = now;
+  const auto worth = [&](const Description& d) { // with the price of its parts
+    return d.score + min_gain_ * double(d.members.size());
+  };
+  int idle = 0;
+  while (int(now.members.size()) < wanted_) {
+    Description next = step(now);
+    if (next.members.empty() || !(next.score < 1e299))
+      break;
+    now = std::move(next);
+    if (exactly_ || worth(now) < worth(best)) {
+      best = now;
+      idle = 0;
+    } else if (++idle >= PATIENCE)
+      break;
+  }
+  while (!exactly_ && best.members.size() > 1 && mergeOnce(best)) {
+  }
+  std::vector<Piece> pieces;
+  for (Member& m : best.members)
+    pieces.push_back(std::move(m.part.piece));
+  return pieces;
 }
 
 } // namespace
@@ -216,16 +308,7 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    int wanted,
                                    bool exactly,
                                    double min_gain) {
-  Parts parts;
-  parts.pieces.push_back(std::move(whole));
-  parts.score = scoreOf(context, parts.pieces);
-  while (
-      int(parts.pieces.size()) < wanted &&
-      splitOnce(context, parts, wanted - int(parts.pieces.size()), exactly, min_gain)) {
-  }
-  while (!exactly && parts.pieces.size() > 1 && mergeOnce(context, parts, min_gain)) {
-  }
-  return std::move(parts.pieces);
+  return WholeSearch(context, wanted, exactly, min_gain).run(std::move(whole));
 }
 
 } // namespace pcl_sq::detail

@@ -19,14 +19,14 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    bool exactly,
                                    double min_gain);
 
-/** \brief Area of the surface of a union, without what lies inside of it [m^2]. */
-double exposedArea(const std::vector<Superquadric>& parts);
-
-/** \brief Replaces distances of points by those to a body where they are smaller.
- * Points whose distance to it is sure to exceed their reach may keep theirs [m]. */
-void keepNearer(const Superquadric& body,
-                const Eigen::Matrix3Xd& points,
-                const Eigen::ArrayXd& reach,
-                Eigen::VectorXd& distances);
+/** \brief The outside of a hollow thing as parts, where the parts of all points explain
+ * those badly and those of the outer points explain theirs well.
+ * \param[in] pieces the parts of all points \return them or those of the outer points;
+ * the other arguments as of splitWholeCloud() */
+std::vector<Piece> fitOutside(const PieceContext& context,
+                              std::vector<Piece> pieces,
+                              int wanted,
+                              bool exactly,
+                              double min_gain);
 
 } // namespace pcl_sq::detail

@@ -13,27 +13,9 @@ namespace {
 constexpr Eigen::Index SAMPLES = 100;
 constexpr Eigen::Index MAX_POINTS = 3000;
 constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
-constexpr std::size_t CURVED = 32; ///< neighbours through which a curved surface goes
-constexpr double SHARING = 5.0;    ///< points of one error for which the fewest suffice
+constexpr double SHARING = 5.0; ///< points of one error for which the fewest suffice
 
 } // namespace
-
-double curvedNoise(const Eigen::Matrix3Xd& points) {
-  const Eigen::Index n = points.cols();
-  if (n < Eigen::Index(2 * CURVED))
-    return 0.0;
-  const Eigen::Index step = std::max<Eigen::Index>(1, n / SAMPLES);
-  const Eigen::Index stride = std::max<Eigen::Index>(1, n / MAX_POINTS);
-  std::vector<double> deviations;
-  Neighbourhood neighbourhood(points, stride);
-  for (Eigen::Index i = 0; i < n; i += step) {
-    const std::vector<Eigen::Index>& near = neighbourhood.of(i, CURVED);
-    const LocalQuadric patch = localQuadric(points, near);
-    if (patch.residuals.size() > 0)
-      deviations.push_back(patch.scatter());
-  }
-  return deviations.empty() ? 0.0 : median(std::move(deviations));
-}
 
 double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   const Eigen::Index n = points.cols();

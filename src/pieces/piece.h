@@ -105,8 +105,4 @@ Piece mergePieces(const Piece& a, const Piece& b);
 /** \brief Noise of the points from their distance to their neighbours' planes [m]. */
 double localNoise(const Eigen::Matrix3Xd& points, double effective_points);
 
-/** \brief The same for independent points, from the distance to curved surfaces: those
- * of thin parts bend within a few neighbours. */
-double curvedNoise(const Eigen::Matrix3Xd& points);
-
 } // namespace pcl_sq::detail

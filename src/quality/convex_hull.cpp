@@ -26,7 +26,8 @@ bool spans(const Eigen::MatrixXd& points) {
 
 bool convexHull(const Eigen::MatrixXd& points,
                 std::vector<HullFacet>& facets,
-                double* volume) {
+                double* volume,
+                std::vector<std::vector<int>>* corners) {
   const int dimension = int(points.rows());
   if (points.cols() <= dimension || !points.allFinite() || !spans(points))
     return false;
@@ -48,6 +49,8 @@ bool convexHull(const Eigen::MatrixXd& points,
                                   quiet);
   if (!failed) {
     facets.clear();
+    if (corners)
+      corners->clear();
     qhT* const qh = &hull; // Qhull's macros want this name
     facetT* facet;
     FORALLfacets {
@@ -55,6 +58,12 @@ bool convexHull(const Eigen::MatrixXd& points,
         continue;
       facets.push_back(
           {Eigen::Map<const Eigen::VectorXd>(facet->normal, dimension), facet->offset});
+      if (corners) {
+        corners->emplace_back();
+        vertexT *vertex, **vertexp;
+        FOREACHvertex_(facet->vertices) corners->back().push_back(
+            qh_pointid(qh, vertex->point));
+      }
     }
     if (volume) {
       qh_getarea(qh, qh->facet_list);

@@ -16,9 +16,11 @@ struct HullFacet {
 };
 
 /** \brief Convex hull of the columns by Qhull. \param[out] volume of the hull
+ * \param[out] corners columns that each facet joins, in no order
  * \return whether the points span the space; else nothing is set */
 [[nodiscard]] bool convexHull(const Eigen::MatrixXd& points,
                               std::vector<HullFacet>& facets,
-                              double* volume = nullptr);
+                              double* volume = nullptr,
+                              std::vector<std::vector<int>>* corners = nullptr);
 
 } // namespace pcl_sq::detail

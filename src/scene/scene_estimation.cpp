@@ -31,6 +31,9 @@ namespace detail {
 
 namespace {
 
+/** \brief Noise and dilation of an outline that colours told [px]. */
+constexpr double FOUND_OUTLINE = 1.0, FOUND_DILATION = 0.7;
+
 /** \brief One estimation: the input, the settings and what is found. */
 class SceneEstimator {
 public:
@@ -73,6 +76,7 @@ private:
   Eigen::Matrix3Xf chosen_, moved_;
   PinholeCamera camera_;
   std::vector<pcl::Indices> things_; ///< pixels of each
+  std::vector<bool> outlined_;       ///< of each label found, by colours
 };
 
 /** \brief The cloud as an image. */
@@ -143,7 +147,9 @@ bool SceneEstimator::tellApart() {
                          input_.colors,
                          camera,
                          CameraPose(camera_).toCamera(*scene_.table)};
-    scene_.labels = segmentScene(view, options_.min_pixels);
+    SceneSegments segments = segmentScene(view, options_.min_pixels);
+    scene_.labels = std::move(segments.labels);
+    outlined_ = std::move(segments.outlined);
   }
   std::vector<pcl::Indices> of_label;
   for (std::size_t i = 0; i < scene_.labels.values.size(); ++i) {
@@ -188,6 +194,11 @@ void SceneEstimator::fit(const pcl::Indices& pixels, SceneObject& object) const 
   options.view.others = std::move(others);
   if (!input_.labels.empty())
     options.view.mask = std::move(own);
+  else if (outlined_[std::size_t(object.label)]) {
+    options.view.mask = std::move(own);
+    options.view.mask_sigma = FOUND_OUTLINE;
+    options.view.mask_dilation = FOUND_DILATION;
+  }
   const std::optional<RoiBox> anywhere;
   const CoordinateMap map =
       input_.chosen

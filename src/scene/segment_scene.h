@@ -18,8 +18,13 @@ struct SceneView {
   Eigen::Vector3d at(int c) const { return points.col(c).cast<double>(); }
 };
 
-/** \brief Tells the things on the table apart.
- * \return labels from 1 on, 0: no thing */
-[[nodiscard]] LabelImage segmentScene(const SceneView& view, int min_pixels);
+/** \brief The things on the table, told apart. */
+struct SceneSegments {
+  LabelImage labels;          ///< from 1 on, 0: no thing
+  std::vector<bool> outlined; ///< of each label: its outline is one of colours
+};
+
+/** \brief Tells the things on the table apart. */
+[[nodiscard]] SceneSegments segmentScene(const SceneView& view, int min_pixels);
 
 } // namespace pcl_sq::detail

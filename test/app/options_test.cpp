@@ -40,6 +40,8 @@ std::vector<std::string> enough(const std::string& program) {
     return {"absent.json"};
   if (program == "pcl_sq_render")
     return {"box", "-o", "/nowhere/folder"};
+  if (program == "pcl_sq_scene")
+    return {"absent.pcd"};
   if (program == "pcl_sq_calibrate")
     return {"a.png", "b.png", "--square", "0.02", "-o", "/nowhere/c.yml"};
   return {"left.png", "right.png", "--calib", "absent.yml"};
@@ -185,6 +187,7 @@ std::vector<std::string> builtPrograms() {
 #endif
 #ifdef PCL_SQ_TEST_STEREO
           "pcl_sq_stereo",
+          "pcl_sq_scene",
           "pcl_sq_render",
           "pcl_sq_calibrate",
 #endif

@@ -52,6 +52,13 @@ struct SceneInput {
                                                 unsigned int threads,
                                                 Scene& scene);
 
+/** \brief How many things an object that was seen looks like: of those among its pixels
+ * the ones that are a good share of it. 1 where that cannot be told.
+ * \param[in] points, colors of the cloud it was seen in; no colours: empty */
+[[nodiscard]] PCL_SQ_EXPORTS int countThings(const ObservedObject& object,
+                                             const CloudPoints& points,
+                                             const ColorMatrix& colors);
+
 /** \brief Takes options over if they are valid. */
 PCL_SQ_EXPORTS void setOptions(const SceneOptions& options, SceneOptions& target);
 

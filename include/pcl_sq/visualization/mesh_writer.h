@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/palette.h"
 #include "pcl_sq/triangle_mesh.h"
-#include "pcl_sq/visualization/palette.h"
 
 #include <string>
 #include <vector>

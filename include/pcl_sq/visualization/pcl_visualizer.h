@@ -8,7 +8,7 @@
 #pragma once
 
 #include "pcl_sq/multi_superquadric.h"
-#include "pcl_sq/visualization/palette.h"
+#include "pcl_sq/palette.h"
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

@@ -17,7 +17,7 @@ constexpr double STEEP = 50.0 * M_PI / 180.0; // largest tilt of a table in the 
 constexpr float NOISE = 0.008f;               // of a plane's points, of the depth
 
 cv::Rect wholeImage(const ColorCloud& cloud) {
-  return {0, 0, static_cast<int>(cloud.width), static_cast<int>(cloud.height)};
+  return {0, 0, int(cloud.width), int(cloud.height)};
 }
 
 /** \brief Number of cells of each label. */
@@ -28,6 +28,14 @@ std::vector<int> sizesOf(const cv::Mat& labels, int count, const cv::Mat& where)
       if (where.at<std::uint8_t>(v, u) != 0)
         ++sizes[static_cast<std::size_t>(labels.at<int>(v, u))];
   return sizes;
+}
+
+/** \brief Cells that have a point. */
+cv::Mat finiteCells(const DepthGrid& grid) {
+  cv::Mat known = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  for (const pcl::index_t i : grid.finite)
+    known.ptr<std::uint8_t>()[i] = 255;
+  return known;
 }
 
 /** \brief The two outermost cells all round. */
@@ -44,16 +52,57 @@ bool findTable(const DepthGrid& grid, float tolerance, DepthPlane& plane) {
          findPlane(grid, grid.finite, tolerance, 0.5 * M_PI, LEAST, plane);
 }
 
+float heightOver(const DepthPlane& plane, const DepthGrid& grid, pcl::index_t i) {
+  const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
+  return plane.head<3>().dot(p.getVector3fMap()) + plane[3];
+}
+
+/** \brief Share of cells that lie on a plane or behind it. */
+double shareOn(const DepthPlane& plane,
+               const DepthGrid& grid,
+               const pcl::Indices& cells,
+               float tolerance) {
+  const auto on = std::count_if(cells.begin(), cells.end(), [&](pcl::index_t i) {
+    return heightOver(plane, grid, i) < tolerance;
+  });
+  return double(on) / std::max<double>(1.0, double(cells.size()));
+}
+
 /** \brief The plane around a box, if it goes on before it and the box's middle does not
  * lie on it as well. A slope that few cameras see a table at takes more of it. */
-bool findPlaneAround(const DepthGrid& grid,
-                     const cv::Mat& core,
+bool findTableAround(const DepthGrid& grid,
+                     const pcl::Indices& ring,
+                     const pcl::Indices& middle,
                      const cv::Rect& inner,
                      float tolerance,
                      DepthPlane& plane) {
   constexpr double USUAL = 40.0 * M_PI / 180.0;
   constexpr double LEAST = 0.2, MOST = 0.6; // of what is seen around the box
   constexpr double BEFORE = 0.3;            // of what is seen below it in the image
+  const auto goesOnBefore = [&] {
+    std::ptrdiff_t before = 0, on = 0;
+    for (const pcl::index_t i : ring)
+      if (i / grid.width * grid.step > inner.y + inner.height) {
+        ++before;
+        on += std::abs(heightOver(plane, grid, i)) < tolerance;
+      }
+    return double(on) > BEFORE * double(before);
+  };
+  const bool found =
+      (findPlane(grid, ring, tolerance, USUAL, LEAST, plane) && goesOnBefore()) ||
+      findPlane(grid, ring, tolerance, 0.5 * M_PI, MOST, plane);
+  return found && shareOn(plane, grid, middle, tolerance) < 0.5;
+}
+
+/** \brief What the surroundings of a box are made of, its table first: the walls are
+ * planes that go on around the box and pass behind its middle. */
+std::vector<DepthPlane> findPlanesAround(const DepthGrid& grid,
+                                         const cv::Mat& core,
+                                         const cv::Rect& inner,
+                                         float tolerance) {
+  constexpr int WALLS = 2;
+  constexpr double LEAST = 0.2;    // of what is seen around the box
+  constexpr double THROUGH = 0.05; // of the middle: a plane behind it leaves it alone
   pcl::Indices ring, middle;
   for (const pcl::index_t i : grid.finite) {
     const cv::Point cell(i % grid.width, i / grid.width);
@@ -62,28 +111,30 @@ bool findPlaneAround(const DepthGrid& grid,
     else if (core.at<std::uint8_t>(cell) != 0)
       middle.push_back(i);
   }
-  const auto height = [&](pcl::index_t i) {
-    const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
-    return plane.head<3>().dot(p.getVector3fMap()) + plane[3];
+  std::vector<DepthPlane> planes(1);
+  if (!findTableAround(grid, ring, middle, inner, tolerance, planes[0]))
+    planes.clear();
+  const auto total = double(ring.size());
+  const auto leaveOut = [&](const DepthPlane& plane) {
+    ring.erase(std::remove_if(ring.begin(),
+                              ring.end(),
+                              [&](pcl::index_t i) {
+                                return std::abs(heightOver(plane, grid, i)) < tolerance;
+                              }),
+               ring.end());
   };
-  const auto goesOnBefore = [&] {
-    std::ptrdiff_t before = 0, on = 0;
-    for (const pcl::index_t i : ring)
-      if (i / grid.width * grid.step > inner.y + inner.height) {
-        ++before;
-        on += std::abs(height(i)) < tolerance;
-      }
-    return double(on) > BEFORE * double(before);
-  };
-  const bool found =
-      (findPlane(grid, ring, tolerance, USUAL, LEAST, plane) && goesOnBefore()) ||
-      findPlane(grid, ring, tolerance, 0.5 * M_PI, MOST, plane);
-  if (!found)
-    return false;
-  const auto on = std::count_if(middle.begin(), middle.end(), [&](pcl::index_t i) {
-    return height(i) < tolerance;
-  });
-  return 2 * on < static_cast<std::ptrdiff_t>(middle.size());
+  for (const DepthPlane& plane : planes)
+    leaveOut(plane);
+  for (int k = 0; k<WALLS&& double(ring.size())> LEAST * total; ++k) {
+    DepthPlane wall;
+    const double least = LEAST * total / double(ring.size());
+    if (!findPlane(grid, ring, tolerance, 0.5 * M_PI, least, wall))
+      break;
+    if (shareOn(wall, grid, middle, tolerance) < THROUGH)
+      planes.push_back(wall);
+    leaveOut(wall);
+  }
+  return planes;
 }
 
 /** \brief Distance of each pixel to the set ones, CV_32F [px]. */
@@ -115,7 +166,7 @@ bool depthOddsInBox(const ColorCloud& cloud,
                     const cv::Rect& box,
                     const cv::Rect& window,
                     cv::Mat& odds) {
-  constexpr float MOST = 3.0F;   // of ln odds: of twenty such pixels one is another's
+  constexpr double MOST = 3.0;   // of ln odds: of twenty such pixels one is another's
   constexpr double RIM = 6.0;    // a matched window fattens outlines by so much [px]
   constexpr double IN_BOX = 0.7; // of a piece of the object
   const DepthGrid grid(cloud, window);
@@ -133,11 +184,9 @@ bool depthOddsInBox(const ColorCloud& cloud,
   if (grid.finite.size() < 20)
     return false;
   const float tolerance = NOISE * grid.medianDepth();
-  DepthPlane plane;
-  const bool table = findPlaneAround(grid, core, inner, tolerance, plane);
   int count = 0;
-  const cv::Mat patches =
-      labelPatches(grid, table ? &plane : nullptr, tolerance, &count);
+  const cv::Mat patches = labelPatches(
+      grid, findPlanesAround(grid, core, inner, tolerance), tolerance, &count);
   const std::vector<int> sizes = sizesOf(patches, count, core);
   const auto best = std::max_element(sizes.begin() + 1, sizes.end());
   if (best == sizes.end() || *best < 0.1 * cv::countNonZero(core))
@@ -175,21 +224,25 @@ bool depthOddsInBox(const ColorCloud& cloud,
     others_in += in_box[k];
     others_all += all[k];
   }
-  // depth that goes on beyond the box tells less where the object ends
-  const double whole = others_in / double(others_all);
-  cv::Mat known = cv::Mat::zeros(grid.height, grid.width, CV_8U);
-  for (const pcl::index_t i : grid.finite)
-    known.ptr<std::uint8_t>()[i] = 255;
+  // depth that goes on beyond the box tells less where the object ends, and what is as
+  // usual around the box as in it tells nothing
+  const cv::Mat known = finiteCells(grid);
+  const int known_in = cv::countNonZero(cells & known);
+  const int known_out = int(grid.finite.size()) - known_in;
+  const double usual_in = (others_in + 1.0) / (known_in + 1.0);
+  const double usual_out = (others_all - others_in + 1.0) / (known_out + 1.0);
+  const auto told = float(std::clamp(
+      std::log(usual_in / usual_out), 0.0, MOST * others_in / double(others_all)));
   const cv::Mat mine = grid.toPixels(object);
   const cv::Mat others = grid.toPixels(known & ~object) & ~mine;
   const cv::Mat to_mine = distanceTo(mine), to_others = distanceTo(others);
   odds = cv::Mat::zeros(window.size(), CV_32F);
   odds.forEach<float>([&](float& o, const int* at) {
     if (mine.at<std::uint8_t>(at[0], at[1]) != 0)
-      o = static_cast<float>(whole) * MOST *
+      o = told *
           std::min(1.0F, to_others.at<float>(at[0], at[1]) / static_cast<float>(RIM));
     else if (others.at<std::uint8_t>(at[0], at[1]) != 0)
-      o = -MOST *
+      o = -float(MOST) *
           std::min(1.0F, to_mine.at<float>(at[0], at[1]) / static_cast<float>(RIM));
   });
   return true;
@@ -201,11 +254,11 @@ bool findObjectAt(const ColorCloud& cloud, const cv::Point& pixel, cv::Mat& mask
   if (grid.finite.size() < 100)
     return false;
   const float tolerance = NOISE * grid.medianDepth();
-  DepthPlane plane;
+  std::vector<DepthPlane> table(1);
+  if (!findTable(grid, tolerance, table[0]))
+    table.clear();
   int count = 0;
-  const bool table = findTable(grid, tolerance, plane);
-  const cv::Mat labels =
-      labelPatches(grid, table ? &plane : nullptr, tolerance, &count);
+  const cv::Mat labels = labelPatches(grid, table, tolerance, &count);
   cv::Mat near = cv::Mat::zeros(labels.size(), CV_8U);
   cv::circle(near, pixel / grid.step, NEAR, 255, cv::FILLED);
   std::vector<int> votes = sizesOf(labels, count, near);

@@ -81,19 +81,18 @@ bool findPlane(const DepthGrid& grid,
 }
 
 cv::Mat labelPatches(const DepthGrid& grid,
-                     const DepthPlane* plane,
+                     const std::vector<DepthPlane>& planes,
                      float tolerance,
                      int* count) {
-  constexpr float HIGHEST = 0.8f; // above the table [m]
-  constexpr float JUMP = 0.025f;  // of the depth, between neighbours
-  constexpr int REACH = 2;        // bridges a missing pixel
+  constexpr float JUMP = 0.025f; // of the depth, between neighbours
+  constexpr int REACH = 2;       // bridges a missing pixel
   cv::Mat labels = cv::Mat::zeros(grid.height, grid.width, CV_32S);
   const auto counts = [&](int u, int v) {
     const auto& p = grid.at(u, v);
-    if (plane == nullptr)
-      return std::isfinite(p.z);
-    const float h = plane->head<3>().dot(p.getVector3fMap()) + (*plane)[3];
-    return h > tolerance && h < HIGHEST; // false for NaN
+    return std::isfinite(p.z) &&
+           std::all_of(planes.begin(), planes.end(), [&](const DepthPlane& plane) {
+             return plane.head<3>().dot(p.getVector3fMap()) + plane[3] > tolerance;
+           });
   };
   *count = 0;
   std::vector<cv::Point> stack;

@@ -7,6 +7,8 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <vector>
+
 namespace pcl_sq::detail {
 
 /** \brief Every step-th pixel of a window of an organized cloud: enough to find objects
@@ -38,11 +40,11 @@ bool findPlane(const DepthGrid& grid,
                double least,
                DepthPlane& plane);
 
-/** \brief Patches of points, cut at depth jumps. \param[in] plane only points above it
- * count; may be null \param[in] tolerance least height above the plane [m]
- * \return CV_32S: 1 to count, 0 = none */
+/** \brief Patches of points, cut at depth jumps. \param[in] planes only points above
+ * all of them count \param[in] tolerance least height above a plane [m] \return CV_32S:
+ * 1 to count, 0 = none */
 cv::Mat labelPatches(const DepthGrid& grid,
-                     const DepthPlane* plane,
+                     const std::vector<DepthPlane>& planes,
                      float tolerance,
                      int* count);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/visualization/palette.h"
+#include "pcl_sq/palette.h"
 
 namespace pcl_sq {
 

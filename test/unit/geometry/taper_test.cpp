@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/taper.h"
-#include "parts/whole_cloud.h"
+#include "parts/exposed_area.h"
+#include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/line_intersection.h"
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/oriented_box.h"
@@ -239,7 +240,9 @@ TEST(Taper, DistancesWithinReachAreKeptWhereTheyAreSmaller) {
         s, points, Eigen::ArrayXd::Constant(points.cols(), reach), distances);
     for (Eigen::Index k = 0; k < points.cols(); ++k)
       if (exact[k] < reach) {
-        EXPECT_NEAR(distances[k], exact[k], 1e-5 * reach) << "case " << i;
+        // of a tapered body the first-order one, good at its surface
+        const double error = s.isTapered() ? 0.3 * std::abs(exact[k]) : 0.0;
+        EXPECT_NEAR(distances[k], exact[k], error + 1e-5 * reach) << "case " << i;
         ++kept;
       } else
         EXPECT_GE(distances[k], 0.999 * reach) << "case " << i;

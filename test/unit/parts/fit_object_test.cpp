@@ -309,7 +309,7 @@ TEST(FitObject, SettingsOutOfRangeAreRefusedWithASentence) {
   ObjectFitOptions options;
   std::string why;
   EXPECT_TRUE(options.isValid(&why)) << why;
-  options.max_parts = 0;
+  options.max_parts = -1;
   EXPECT_FALSE(options.isValid(&why));
   EXPECT_NE(why.find("max_parts"), std::string::npos);
   options = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_sq/visualization/palette.h"
+#include "pcl_sq/palette.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What goes wrong, as Python's exceptions with the programs' sentences.
+#pragma once
+
+#include "command_line/app.h"
+
+#include "pcl_sq/exception.h"
+
+#include <pybind11/pybind11.h>
+
+namespace pcl_sq::python {
+
+/** \brief Runs work without the interpreter's lock. What contradicts itself becomes
+ * ValueError, all other failures pcl_sq.Error. */
+template <typename Work>
+auto guarded(const Work& work) {
+  const auto raise = [](const char* name, const std::string& sentence) {
+    const pybind11::gil_scoped_acquire lock;
+    pybind11::object type = pybind11::module_::import("pcl_sq._types").attr(name);
+    PyErr_SetString(type.ptr(), sentence.c_str());
+    throw pybind11::error_already_set();
+  };
+  std::string sentence;
+  bool usage = false;
+  try {
+    const pybind11::gil_scoped_release unlocked;
+    return work();
+  } catch (const app::UsageError& error) {
+    sentence = app::sentenceOf(error);
+    usage = true;
+  } catch (const app::Failure& error) {
+    sentence = app::sentenceOf(error);
+  } catch (const Exception& error) {
+    sentence = app::sentenceOf(error);
+  } catch (const pybind11::error_already_set&) {
+    throw;
+  } catch (const std::exception& error) {
+    sentence = app::sentenceOf(error);
+  }
+  raise(usage ? "OptionError" : "Error", sentence);
+  throw app::Failure(sentence); // not reached
+}
+
+} // namespace pcl_sq::python

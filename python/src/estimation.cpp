@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models as the programs make them: their options, their sentences, their files.
+#include "arrays.h"
+#include "bodies.h"
+#include "errors.h"
+#include "input/shape.h"
+#include "model/grasp_output.h"
+#include "options/model_options.h"
+
+#include "command_line/value_checks.h"
+#include "pcl_sq/file_io.h"
+#include "pcl_sq/html_view.h"
+#include "pcl_sq/robot_export.h"
+
+namespace pcl_sq::python {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/** \brief The points as a file would hold them. */
+app::Shape shapeOf(const PointArray& points, const std::optional<py::array>& colors) {
+  app::Shape shape;
+  const auto count = static_cast<std::size_t>(points.size());
+  shape.points.resize(count);
+  points.visit([&](const auto& columns) {
+    for (std::size_t i = 0; i < count; ++i)
+      shape.points[i] = columns.col(Eigen::Index(i)).template cast<double>();
+  });
+  if (points.shape().size() == 2) {
+    shape.height = static_cast<std::uint32_t>(points.shape()[0]);
+    shape.width = static_cast<std::uint32_t>(points.shape()[1]);
+  }
+  if (colors)
+    shape.colors = colorsOf(*colors, points.size());
+  return shape;
+}
+
+/** \brief The cloud of an array. \throw app::Failure with a whole sentence */
+app::LoadedCloud cloudOf(app::Shape shape, const app::CloudOptions& options) {
+  try {
+    return app::makeCloud(std::move(shape), options);
+  } catch (const app::Failure& failure) {
+    throw app::Failure("the points make no cloud: " + std::string(failure.what()) +
+                       ".");
+  }
+}
+
+CellMask cellsOf(const py::array& mask) {
+  if (mask.ndim() != 2)
+    throw std::invalid_argument("mask wants an array of height x width");
+  const auto set = py::array_t<bool, py::array::c_style | py::array::forcecast>(mask);
+  const auto width = int(mask.shape(1)), height = int(mask.shape(0));
+  CellMask cells(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      cells.set(x, y, set.at(y, x));
+  return cells;
+}
+
+py::tuple estimate(const py::array& array,
+                   const std::optional<py::array>& colors,
+                   const std::optional<py::array>& mask,
+                   const std::string& frame,
+                   const Words& words) {
+  app::Shape shape = shapeOf(PointArray(array), colors);
+  app::ModelOptions options;
+  if (mask)
+    options.estimation.view.mask = cellsOf(*mask);
+  const app::ModelResult result = guarded([&] {
+    app::parseWords(
+        "pcl_sq_fit",
+        [&](CLI::App& cli) {
+          app::addCloudOptions(cli, options.cloud);
+          app::addModelOptions(cli, options);
+          app::addCoverageOptions(cli, options);
+        },
+        words);
+    if (mask && (options.remove_plane || !options.roi.empty() || !options.box.empty()))
+      throw app::UsageError("mask says already which pixels are the object: leave out "
+                            "roi, box and remove_plane.");
+    if (mask && options.estimation.decomposition != Decomposition::PARTS)
+      throw app::UsageError(
+          "mask goes with preset best; the paper's chain takes roi or box.");
+    app::checkModelOptions(options);
+    app::LoadedCloud input = cloudOf(std::move(shape), options.cloud);
+    input.cloud->header.frame_id = frame;
+    return app::makeModel(input, "", options, 0.0);
+  });
+  std::vector<std::int64_t> indices(result.report.object_indices.begin(),
+                                    result.report.object_indices.end());
+  const auto count = static_cast<py::ssize_t>(indices.size());
+  return py::make_tuple(result.file, ownedArray(std::move(indices), {count}));
+}
+
+/** \brief Grasps as the JSON that pcl_sq_grasp writes. */
+std::string planGrasps(const ModelFile& file,
+                       const std::optional<py::array>& cloud,
+                       const Words& words) {
+  std::optional<app::Shape> shape;
+  if (cloud)
+    shape = shapeOf(PointArray(*cloud), std::nullopt);
+  return guarded([&] {
+    app::GraspOptions options;
+    app::parseWords(
+        "pcl_sq_grasp",
+        [&](CLI::App& cli) {
+          app::addGripperOptions(cli, options);
+          app::addFrameOptions(cli, options.frame);
+          cli.add_option("--count", options.planner.count)
+              ->check(app::wholeNumber(1, 10000));
+        },
+        words);
+    app::checkGraspOptions(options);
+    std::optional<app::LoadedCloud> input;
+    if (shape)
+      input = cloudOf(std::move(*shape), {});
+    GraspScene scene = app::makeScene(options, file, input ? &*input : nullptr);
+    if (input)
+      scene.cloud = app::columnsOf(*input);
+    double milliseconds = 0.0;
+    const GraspPlan plan = app::planGrasps(file.model, scene, options, milliseconds);
+    if (!plan.ok())
+      throw app::Failure(plan.failure);
+    return app::graspsToJson(plan, scene, options, file.frame, "", milliseconds);
+  });
+}
+
+/** \brief The page of a model and its cloud. */
+std::string html(const ModelFile& file,
+                 const std::optional<py::array>& cloud,
+                 const std::optional<py::array>& colors,
+                 const std::string& title) {
+  Eigen::Matrix3Xf points(3, 0);
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  std::vector<std::uint32_t> packed;
+  if (cloud) {
+    const PointArray array(*cloud);
+    const Eigen::Matrix3Xd columns = array.columns();
+    if (!file.model.empty()) // floats keep their digits near the model
+      offset = file.model.parts.front().center.array().round().matrix();
+    points = (columns.colwise() - offset).cast<float>();
+    if (colors)
+      packed = colorsOf(*colors, array.size());
+  }
+  HtmlViewOptions options;
+  options.title = title;
+  const py::gil_scoped_release unlocked;
+  return htmlView(file, points, offset, packed, options);
+}
+
+/** \brief (name, bytes) of each file of a format. */
+std::vector<std::pair<std::string, py::bytes>> robotExport(const ModelFile& file,
+                                                           const std::string& ending,
+                                                           const std::string& name,
+                                                           double density,
+                                                           const std::string& prefix) {
+  RobotExportOptions options;
+  options.name = name;
+  options.density = density;
+  options.mesh_prefix = prefix;
+  std::string why;
+  if (!options.isValid(&why))
+    throw std::invalid_argument(why);
+  std::vector<std::pair<std::string, py::bytes>> files;
+  for (const TextFile& text : robotFiles(ending, file, options))
+    files.emplace_back(text.path, py::bytes(text.contents));
+  return files;
+}
+
+ModelFile fromText(const std::string& text) {
+  ModelFile file;
+  std::string why;
+  if (!fromJson(text, file, &why))
+    throw app::Failure("this text is no model: " + why + ".");
+  return file;
+}
+
+} // namespace
+
+void addEstimation(py::module_& module) {
+  py::class_<ModelFile>(module, "ModelFile", "The contents of a model file.")
+      .def_readwrite("model", &ModelFile::model)
+      .def_readwrite("frame", &ModelFile::frame)
+      .def_readonly("table", &ModelFile::table)
+      .def_readonly("rms_distance", &ModelFile::rms_distance)
+      .def_readonly("distortion", &ModelFile::distortion)
+      .def_readwrite("extra_json", &ModelFile::extra_json)
+      .def("to_json", &toJson, py::arg("indent") = 2)
+      .def_static("of_union",
+                  [](const MultiSuperquadric& model) {
+                    ModelFile file;
+                    file.model = model;
+                    return file;
+                  })
+      .def_static("from_json",
+                  [](const std::string& text) {
+                    return guarded([&] { return fromText(text); });
+                  })
+      .def("save",
+           [](const ModelFile& file, const std::string& path) {
+             guarded([&] {
+               std::string why;
+               if (!saveModel(path, file, &why))
+                 throw app::Failure(why + ".");
+               return true;
+             });
+           })
+      .def_static("load", [](const std::string& path) {
+        return guarded([&] {
+          ModelFile file;
+          std::string why;
+          if (!loadModel(path, file, &why))
+            throw app::Failure(why + ".");
+          return file;
+        });
+      });
+  module.def("estimate", &estimate);
+  module.def("plan_grasps", &planGrasps);
+  module.def("html", &html);
+  module.def("robot_export", &robotExport);
+  module.def("write_file", [](const std::string& path, const std::string& bytes) {
+    guarded([&] {
+      std::string why;
+      if (!writeFile(path, bytes, &why))
+        throw app::Failure(why + ".");
+      return true;
+    });
+  });
+}
+
+} // namespace pcl_sq::python

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stereo pairs and depth images; loads OpenCV.
+#include "arrays.h"
+#include "errors.h"
+#include "stereo/stereo_model.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <pcl/console/print.h>
+
+namespace pcl_sq::python {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/** \brief An image of bytes, 16 bits or floats, grey or RGB, as OpenCV has it: BGR. */
+cv::Mat imageOf(const py::array& array, const char* name) {
+  const bool color = array.ndim() == 3 && array.shape(2) == 3;
+  if (!color && array.ndim() != 2)
+    throw std::invalid_argument(std::string(name) +
+                                " wants an array of height x width, or x 3 for RGB");
+  int depth = CV_8U;
+  py::array whole;
+  if (py::isinstance<py::array_t<std::uint8_t>>(array))
+    whole = py::array_t<std::uint8_t, py::array::c_style>(array);
+  else if (py::isinstance<py::array_t<std::uint16_t>>(array)) {
+    whole = py::array_t<std::uint16_t, py::array::c_style>(array);
+    depth = CV_16U;
+  } else if (array.dtype().kind() == 'f') {
+    whole = py::array_t<float, py::array::c_style | py::array::forcecast>(array);
+    depth = CV_32F;
+  } else if (array.dtype().kind() == 'b') {
+    whole = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>(array);
+  } else
+    throw py::type_error(std::string(name) + " wants uint8, uint16 or floats");
+  const cv::Mat shared(int(array.shape(0)),
+                       int(array.shape(1)),
+                       CV_MAKETYPE(depth, color ? 3 : 1),
+                       const_cast<void*>(whole.data()));
+  cv::Mat image;
+  if (color)
+    cv::cvtColor(shared, image, cv::COLOR_RGB2BGR);
+  else
+    image = shared.clone();
+  return image;
+}
+
+py::array cloudArray(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, bool colors) {
+  const std::vector<py::ssize_t> shape = {
+      py::ssize_t(cloud.height), py::ssize_t(cloud.width), 3};
+  if (colors) {
+    py::array_t<std::uint8_t> result(shape);
+    std::uint8_t* out = result.mutable_data();
+    for (const auto& p : cloud)
+      for (const std::uint8_t c : {p.r, p.g, p.b})
+        *out++ = c;
+    return result;
+  }
+  py::array_t<float> result(shape);
+  float* out = result.mutable_data();
+  for (const auto& p : cloud)
+    for (const float c : {p.x, p.y, p.z})
+      *out++ = c;
+  return result;
+}
+
+py::tuple estimate(const std::optional<py::array>& left,
+                   const std::optional<py::array>& right,
+                   const std::optional<py::array>& depth,
+                   const std::optional<py::array>& mask,
+                   const Words& calibration,
+                   const Words& words) {
+  app::FrontOptions front;
+  app::ModelOptions model;
+  // the names stand in messages
+  const auto take = [](const std::optional<py::array>& array,
+                       const char* name,
+                       cv::Mat& image,
+                       std::string& path) {
+    if (!array)
+      return;
+    image = imageOf(*array, name);
+    path = name;
+  };
+  std::string mask_name, left_name, right_name, depth_name;
+  take(left, depth ? "color" : "left", front.left_image, left_name);
+  take(right, "right", front.right_image, right_name);
+  take(depth, "depth", front.depth_image, depth_name);
+  take(mask, "mask", front.mask_image, mask_name);
+  if (!front.mask_image.empty())
+    front.mask_image = front.mask_image > 0;
+  app::FrontResult seen;
+  const app::StereoModel made = guarded([&] {
+    app::parseWords(
+        "pcl_sq_stereo",
+        [&](CLI::App& cli) {
+          app::addFrontOptions(cli, front);
+          app::addModelOptions(cli, model);
+        },
+        words);
+    front.left = left_name;
+    front.right = right_name;
+    front.depth = depth_name;
+    front.calib = calibration;
+    front.mask = model.mask = mask_name;
+    front.intrinsics = model.intrinsics;
+    app::chooseMatcher(model, front);
+    app::checkFrontOptions(front, model.roi);
+    app::checkModelOptions(model);
+    seen = app::runFront(front, model.roi);
+    return app::makeStereoModel(front, seen, model);
+  });
+  const auto& cloud = *seen.stereo.cloud;
+  const bool colors = !seen.stereo.left.empty();
+  return py::make_tuple(
+      toJson(made.result.file),
+      cloudArray(cloud, false),
+      colors ? py::object(cloudArray(cloud, true)) : py::object(py::none()),
+      std::vector<std::int64_t>(made.result.report.object_indices.begin(),
+                                made.result.report.object_indices.end()),
+      seen.notes);
+}
+
+} // namespace
+
+} // namespace pcl_sq::python
+
+PYBIND11_MODULE(_stereo, module) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  module.def("estimate", &pcl_sq::python::estimate);
+}

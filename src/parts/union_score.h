@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Parts of a whole cloud and what they cost together (M19).
+#pragma once
+
+#include "pieces/piece.h"
+
+#include <memory>
+
+namespace pcl_sq::detail {
+
+struct BodyTrace;
+
+/** \brief A piece, and what its body is to all points: found once, used by each score
+ * of a set of parts that it is in. */
+struct Part {
+  Piece piece;
+  std::shared_ptr<const BodyTrace> trace;
+};
+
+/** \brief Fits a part's piece. */
+void fitPart(const PieceContext& context, Part& part, Effort effort);
+
+/** \brief After a part's piece was fitted elsewhere. */
+void traceAgain(const PieceContext& context, Part& part);
+
+/** \brief Signed distance of an observed point to a part's body [m]. */
+[[nodiscard]] double distanceOf(const Part& part, int column);
+
+/** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price;
+ * smaller is better.
+ *
+ * Points are spread evenly over the outer surface, with noise: a surface without points
+ * costs as much as points without a surface. */
+[[nodiscard]] double scoreOf(const PieceContext& context,
+                             const std::vector<const Part*>& parts);
+
+/** \brief Share of a body's surface that has points of the cloud beside it. */
+[[nodiscard]] double covered(const PieceContext& context, const Superquadric& body);
+
+/** \brief Gives each point to the part with the nearest surface; a part keeps what
+ * noise cannot tell. \return whether a point changed its part and no part lost nearly
+ * all */
+[[nodiscard]] bool assignPoints(const PieceContext& context, std::vector<Part>& parts);
+
+} // namespace pcl_sq::detail

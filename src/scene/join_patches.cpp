@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which patches are one thing: what one body explains better than two, and what cannot
+// stand by itself.
+#include "scene/one_body.h"
+#include "scene/patches.h"
+#include "sensor/observation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr std::size_t SCRAP = 150; ///< pixels too few for a body of their own
+constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
+constexpr int LEAST_BORDER = 3;    ///< pairs of pixels that make a contact
+constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
+constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
+constexpr double OVERLAP = 0.9; ///< of a footprint's radius: in each other's place
+constexpr double NEAR = 0.5;    ///< of the larger thing's size: belongs to it
+
+/** \brief Where things stand: a circle on the table. */
+struct Footprint {
+  Eigen::Vector3d middle;
+  double radius = 0.0;
+};
+
+class Joiner {
+public:
+  Joiner(const SceneView& view, Patches patches)
+      : view_(view), list_(std::move(patches.list)),
+        borders_(std::move(patches.borders)) {}
+
+  std::vector<Patch> run() {
+    joinScraps();
+    joinOverlapping();
+    joinBodies();
+    joinFloating();
+    std::vector<Patch> things;
+    for (Patch& patch : list_)
+      if (!patch.pixels.empty())
+        things.push_back(std::move(patch));
+    return things;
+  }
+
+private:
+  bool alive(int k) const { return !list_[std::size_t(k)].pixels.empty(); }
+  double reach(const Patch& p) const {
+    return STANDS * standingHeight(view_.table, p.sums.mean().z());
+  }
+  bool stands(const Patch& p) const { return p.low < reach(p); }
+
+  void join(int from, int into) {
+    Patch& a = list_[std::size_t(into)];
+    Patch& b = list_[std::size_t(from)];
+    a.pixels.insert(a.pixels.end(), b.pixels.begin(), b.pixels.end());
+    a.sums.add(b.sums);
+    a.low = std::min(a.low, b.low);
+    a.high = std::max(a.high, b.high);
+    b.pixels.clear();
+    std::map<std::pair<int, int>, Border> borders;
+    for (const auto& [pair, border] : borders_) {
+      const int i = pair.first == from ? into : pair.first;
+      const int j = pair.second == from ? into : pair.second;
+      if (i == j)
+        continue;
+      Border& sum = borders[std::minmax(i, j)];
+      sum.pairs += border.pairs;
+      sum.jumps += border.jumps;
+    }
+    borders_.swap(borders);
+    for (auto it = gains_.begin(); it != gains_.end();)
+      it = it->first.first == into || it->first.second == into ||
+                   it->first.first == from || it->first.second == from
+               ? gains_.erase(it)
+               : std::next(it);
+  }
+
+  static bool touches(const Border& border) {
+    return border.pairs >= LEAST_BORDER && border.jumps < JUMPS * border.pairs;
+  }
+
+  /** \brief Small patches join the neighbour whose colour is nearest. */
+  void joinScraps() {
+    for (bool joined = true; joined;) {
+      joined = false;
+      double best = 1e300;
+      int from = -1, into = -1;
+      for (const auto& [pair, border] : borders_) {
+        const std::size_t a = list_[std::size_t(pair.first)].pixels.size();
+        const std::size_t b = list_[std::size_t(pair.second)].pixels.size();
+        if (std::min(a, b) >= SCRAP || std::min(a, b) == 0 || !touches(border))
+          continue;
+        const double off = colorDistance(list_[std::size_t(pair.first)].sums,
+                                         list_[std::size_t(pair.second)].sums);
+        if (off < best) {
+          best = off;
+          from = a < b ? pair.first : pair.second;
+          into = a < b ? pair.second : pair.first;
+        }
+      }
+      if (from >= 0) {
+        join(from, into);
+        joined = true;
+      }
+    }
+  }
+
+  /** \brief Pairs that one body may explain: they touch, or are of one colour and one
+   * place. */
+  std::vector<std::pair<int, int>> candidates() const {
+    std::vector<std::pair<int, int>> pairs;
+    for (int a = 0; a < int(list_.size()); ++a)
+      for (int b = a + 1; b < int(list_.size()); ++b) {
+        if (!alive(a) || !alive(b))
+          continue;
+        const auto border = borders_.find({a, b});
+        const std::size_t smaller = std::min(list_[std::size_t(a)].pixels.size(),
+                                             list_[std::size_t(b)].pixels.size());
+        if (smaller < SCRAP)
+          continue;
+        const bool contact = border != borders_.end() && touches(border->second);
+        if (contact || offset(a, b) < OVERLAP ||
+            (sameColor(a, b) && offset(a, b) < 1.0))
+          pairs.emplace_back(a, b);
+      }
+    return pairs;
+  }
+
+  bool sameColor(int a, int b) const {
+    return colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums) <
+           SAME_COLOR;
+  }
+
+  Footprint footprintOf(const Patch& p) const {
+    Footprint f;
+    const Eigen::Vector3d n = view_.table.normal;
+    const Eigen::Vector3d middle = p.sums.mean();
+    const Eigen::Matrix3d spread =
+        p.sums.square / p.sums.count - middle * middle.transpose();
+    const double across = std::max(0.0, spread.trace() - n.dot(spread * n));
+    f.middle = middle - view_.table.height(middle) * n;
+    f.radius = 2.0 * std::sqrt(across); // of a ring; more of a disc
+    return f;
+  }
+
+  /** \brief Distance of two footprints over the larger one's radius. */
+  double offset(int a, int b) const {
+    const Footprint fa = footprintOf(list_[std::size_t(a)]);
+    const Footprint fb = footprintOf(list_[std::size_t(b)]);
+    return (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
+  }
+
+  /** \brief Pieces of one colour where two bodies would overlap, such as the inside and
+   * the outside of a bowl. */
+  void joinOverlapping() {
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (int a = 0; a < int(list_.size()) && !joined; ++a)
+        for (int b = 0; b < int(list_.size()) && !joined; ++b)
+          if (a != b && alive(a) && alive(b) &&
+              list_[std::size_t(a)].pixels.size() >=
+                  list_[std::size_t(b)].pixels.size() &&
+              view_.colors.cols() > 0 && sameColor(a, b) && offset(a, b) < OVERLAP) {
+            join(b, a);
+            joined = true;
+          }
+    }
+  }
+
+  void joinBodies() {
+    for (;;) {
+      double best = 0.0;
+      std::pair<int, int> which{-1, -1};
+      for (const auto& pair : candidates()) {
+        auto known = gains_.find(pair);
+        if (known == gains_.end())
+          known = gains_
+                      .emplace(pair,
+                               gainOfOneBody(view_,
+                                             list_[std::size_t(pair.first)].pixels,
+                                             list_[std::size_t(pair.second)].pixels))
+                      .first;
+        if (known->second > best) {
+          best = known->second;
+          which = pair;
+        }
+      }
+      if (which.first < 0)
+        return;
+      join(which.second, which.first);
+    }
+  }
+
+  /** \brief What does not reach the table belongs to what carries it. */
+  void joinFloating() {
+    for (;;) {
+      double best = 1e300;
+      int from = -1, into = -1;
+      for (int a = 0; a < int(list_.size()); ++a) {
+        if (!alive(a) || stands(list_[std::size_t(a)]))
+          continue;
+        for (int b = 0; b < int(list_.size()); ++b) {
+          if (b == a || !alive(b) ||
+              list_[std::size_t(b)].low > list_[std::size_t(a)].low)
+            continue;
+          const double d = apart(a, b);
+          if (d < best) {
+            best = d;
+            from = a;
+            into = b;
+          }
+        }
+      }
+      if (from < 0)
+        return;
+      join(from, into);
+    }
+  }
+
+  /** \brief How far a floating patch is from another, in sizes; infinite beyond reach.
+   */
+  double apart(int a, int b) const {
+    const auto border = borders_.find(std::minmax(a, b));
+    const double color =
+        colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums);
+    if (border != borders_.end() && touches(border->second))
+      return 0.1 * color / double(border->second.pairs);
+    const Footprint fa = footprintOf(list_[std::size_t(a)]);
+    const Footprint fb = footprintOf(list_[std::size_t(b)]);
+    const double gap = (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
+    if (color > SAME_COLOR || gap > 1.0 + NEAR)
+      return 1e300;
+    return 1.0 + gap + color;
+  }
+
+  const SceneView& view_;
+  std::vector<Patch> list_;
+  std::map<std::pair<int, int>, Border> borders_;
+  std::map<std::pair<int, int>, double> gains_;
+};
+
+} // namespace
+
+std::vector<Patch> joinPatches(const SceneView& view, Patches patches) {
+  return Joiner(view, std::move(patches)).run();
+}
+
+} // namespace pcl_sq::detail

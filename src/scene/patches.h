@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. Pieces of things: what hangs together without doubt, and which of it is one
+// thing.
+#pragma once
+
+#include "scene/superpixels.h"
+
+#include <map>
+
+namespace pcl_sq::detail {
+
+/** \brief Superpixels of one colour that hang together without a jump or a crease. */
+struct Patch {
+  std::vector<int> pixels;
+  PieceSums sums;
+  double low = 0.0, high = 0.0; ///< heights above the table of all but strays [m]
+};
+
+struct Patches {
+  std::vector<Patch> list;
+  std::vector<int> of_pixel;                     ///< -1: none
+  std::map<std::pair<int, int>, Border> borders; ///< smaller index first
+};
+
+/** \brief Joins superpixels where colour, depth and curvature say one surface. */
+[[nodiscard]] Patches patchesOf(const SceneView& view, const Superpixels& superpixels);
+
+/** \brief Whether pixels are but a rim, a few wide: no thing by itself. */
+[[nodiscard]] bool isThin(const std::vector<int>& pixels, int width, int height);
+
+/** \brief Joins patches that are one thing. */
+[[nodiscard]] std::vector<Patch> joinPatches(const SceneView& view, Patches patches);
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Superpixels as Achanta et al. (SLIC, PAMI 2012) make them, with depth beside colour.
+#include "scene/superpixels.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int STEP = 9;   ///< pixels between the seeds
+constexpr int ROUNDS = 4; ///< of assignment; more change little
+constexpr int REACH = 2;  ///< pixels across which pieces touch: missing ones between
+constexpr double SIGMAS = 3.0; ///< of the depth's noise: more is a jump
+/** \brief Tangent of the steepest slope to the ray at which a surface is still seen:
+ * depth cameras see nothing below some 10 degrees. */
+constexpr double STEEPEST = 5.0;
+constexpr double CHROMA_STEP = 0.03; ///< shares of red, green, blue that are told apart
+constexpr double LIGHT_STEP = 0.7;   ///< logarithm: light and shade of one colour
+
+/** \brief A colour in steps that tell colours apart. */
+using Shade = Eigen::Vector4f;
+
+struct Seed {
+  Eigen::Vector3f at = Eigen::Vector3f::Zero(); ///< pixel and depth
+  Shade shade = Shade::Zero();
+  float count = 0.0F;
+};
+
+/** \brief The assignment of pixels to seeds on a grid. */
+class Divider {
+public:
+  Divider(const SceneView& view, const CellMask& pixels)
+      : view_(view), pixels_(pixels), noise_(depthNoise(view)),
+        columns_((view.width + STEP - 1) / STEP),
+        rows_((view.height + STEP - 1) / STEP) {
+    seeds_.resize(std::size_t(columns_) * std::size_t(rows_));
+    for (std::size_t i = 0; i < pixels.cells.size(); ++i)
+      if (pixels.cells[i])
+        set_.push_back(int(i));
+    of_pixel_.assign(pixels.cells.size(), -1);
+    shades_.resize(pixels.cells.size(), Shade::Zero());
+    for (const int c : set_) {
+      of_pixel_[std::size_t(c)] = cellOf(c);
+      if (view.colors.cols() > 0)
+        shades_[std::size_t(c)] = shadeOf(view.colors.col(c).cast<double>());
+    }
+  }
+
+  std::vector<int> run() {
+    update();
+    for (int round = 0; round < ROUNDS; ++round) {
+      for (const int c : set_)
+        assign(c);
+      update();
+    }
+    return connected();
+  }
+
+private:
+  int cellOf(int c) const {
+    return (c / view_.width) / STEP * columns_ + (c % view_.width) / STEP;
+  }
+  void update() {
+    for (Seed& s : seeds_)
+      s = {};
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      const int c = set_[i];
+      Seed& s = seeds_[std::size_t(of_pixel_[std::size_t(c)])];
+      s.at += Eigen::Vector3f(
+          float(c % view_.width), float(c / view_.width), view_.points(2, c));
+      s.shade += shades_[std::size_t(c)];
+      s.count += 1.0F;
+    }
+    for (Seed& s : seeds_)
+      if (s.count > 0.0F) {
+        s.at /= s.count;
+        s.shade /= s.count;
+      }
+  }
+  void assign(int c) {
+    const int x = c % view_.width, y = c / view_.width;
+    const float z = view_.points(2, c);
+    const Eigen::Vector3f at{float(x), float(y), z};
+    const auto along = 1.0F / float(2.0 * STEP * z / view_.camera.fx +
+                                    2.0 * noise_ * double(z) * double(z));
+    const Eigen::Vector3f scale{1.0F / STEP, 1.0F / STEP, along};
+    float best = 1e30F;
+    for (int j = std::max(0, y / STEP - 1); j <= std::min(rows_ - 1, y / STEP + 1); ++j)
+      for (int i = std::max(0, x / STEP - 1); i <= std::min(columns_ - 1, x / STEP + 1);
+           ++i) {
+        const Seed& s = seeds_[std::size_t(j * columns_ + i)];
+        if (s.count == 0.0F)
+          continue;
+        const float d = (at - s.at).cwiseProduct(scale).squaredNorm() +
+                        0.25F * (shades_[std::size_t(c)] - s.shade).squaredNorm();
+        if (d < best) {
+          best = d;
+          of_pixel_[std::size_t(c)] = j * columns_ + i;
+        }
+      }
+  }
+  /** \brief Each connected set of pixels of one seed as a piece; scraps go to the piece
+   * that they touch most. */
+  std::vector<int> connected() const {
+    std::vector<int> piece(of_pixel_.size(), -1), size;
+    std::vector<int> queue;
+    for (const int start : set_) {
+      if (piece[std::size_t(start)] >= 0)
+        continue;
+      const int number = int(size.size());
+      queue.assign(1, start);
+      piece[std::size_t(start)] = number;
+      for (std::size_t i = 0; i < queue.size(); ++i)
+        forNeighbours(queue[i], [&](int d) {
+          if (piece[std::size_t(d)] < 0 &&
+              of_pixel_[std::size_t(d)] == of_pixel_[std::size_t(start)]) {
+            piece[std::size_t(d)] = number;
+            queue.push_back(d);
+          }
+        });
+      size.push_back(int(queue.size()));
+    }
+    constexpr int SCRAP = STEP * STEP / 6;
+    for (int pass = 0; pass < 2; ++pass)
+      for (const int c : set_) {
+        if (size[std::size_t(piece[std::size_t(c)])] >= SCRAP)
+          continue;
+        int best = -1;
+        double least = 1e300;
+        forNeighbours(c, [&](int d) {
+          const int other = piece[std::size_t(d)];
+          if (size[std::size_t(other)] < SCRAP)
+            return;
+          const double off =
+              double(
+                  (shades_[std::size_t(c)] - shades_[std::size_t(d)]).squaredNorm()) +
+              std::pow(double(view_.points(2, c) - view_.points(2, d)) /
+                           (SIGMAS * noise_ * std::pow(double(view_.points(2, c)), 2)),
+                       2);
+          if (off < least) {
+            least = off;
+            best = other;
+          }
+        });
+        if (best >= 0)
+          piece[std::size_t(c)] = best;
+      }
+    return piece;
+  }
+  template <typename Use>
+  void forNeighbours(int c, const Use& use) const {
+    const int x = c % view_.width, y = c / view_.width;
+    if (pixels_(x - 1, y))
+      use(c - 1);
+    if (pixels_(x + 1, y))
+      use(c + 1);
+    if (pixels_(x, y - 1))
+      use(c - view_.width);
+    if (pixels_(x, y + 1))
+      use(c + view_.width);
+  }
+
+  const SceneView& view_;
+  const CellMask& pixels_;
+  const double noise_;
+  const int columns_, rows_;
+  std::vector<int> set_;
+  std::vector<int> of_pixel_;
+  std::vector<Shade> shades_; ///< of each pixel
+  std::vector<Seed> seeds_;
+};
+
+} // namespace
+
+Eigen::Vector4f shadeOf(const Eigen::Vector3d& color) {
+  const double sum = color.sum() + 3.0; // black has no colour
+  Shade shade;
+  shade.head<3>() = (color / (sum * CHROMA_STEP)).cast<float>();
+  shade[3] = float(std::log(sum) / LIGHT_STEP);
+  return shade;
+}
+
+void PieceSums::add(const PieceSums& other) {
+  count += other.count;
+  point += other.point;
+  square += other.square;
+  color += other.color;
+}
+
+Eigen::Vector3d PieceSums::normal() const {
+  const Eigen::Vector3d middle = mean();
+  const Eigen::Matrix3d spread = square / count - middle * middle.transpose();
+  const Eigen::Vector3d n =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  return n.dot(middle) > 0.0 ? Eigen::Vector3d(-n) : n;
+}
+
+double colorDistance(const PieceSums& a, const PieceSums& b) {
+  const Shade off = shadeOf(a.color / a.count) - shadeOf(b.color / b.count);
+  return double(off.norm());
+}
+
+double depthNoise(const SceneView& view) {
+  // where the ray through the image's middle meets the table
+  const double towards = -view.table.normal.z();
+  const double there = towards > 0.2 ? view.table.offset / towards : 1.0;
+  return view.table.noise / std::max(towards, 0.2) / std::max(there * there, 1e-6);
+}
+
+Superpixels divide(const SceneView& view, const CellMask& pixels) {
+  Superpixels result;
+  result.of_pixel = Divider(view, pixels).run();
+  const double noise = depthNoise(view);
+  int count = 0;
+  std::vector<int> number; // without those that lost all their pixels
+  for (int& piece : result.of_pixel) {
+    if (piece < 0)
+      continue;
+    if (piece >= int(number.size()))
+      number.resize(std::size_t(piece) + 1, -1);
+    int& n = number[std::size_t(piece)];
+    if (n < 0)
+      n = count++;
+    piece = n;
+  }
+  result.pieces.resize(std::size_t(count));
+  std::map<std::pair<int, int>, Border> borders;
+  for (int c = 0; c < int(result.of_pixel.size()); ++c) {
+    const int piece = result.of_pixel[std::size_t(c)];
+    if (piece < 0)
+      continue;
+    PieceSums& sums = result.pieces[std::size_t(piece)];
+    const Eigen::Vector3d p = view.at(c);
+    sums.count += 1.0;
+    sums.point += p;
+    sums.square += p * p.transpose();
+    if (view.colors.cols() > 0)
+      sums.color += view.colors.col(c).cast<double>();
+    const int x = c % view.width, y = c / view.width;
+    for (int far = 1; far <= REACH; ++far)
+      for (const int step : {1, view.width}) {
+        if ((step == 1 ? x : y) + far >= (step == 1 ? view.width : view.height))
+          continue;
+        const int d = c + far * step;
+        const int other = result.of_pixel[std::size_t(d)];
+        // a nearer neighbour says it better
+        if (other < 0 || other == piece ||
+            (far == 2 && result.of_pixel[std::size_t(c + step)] >= 0))
+          continue;
+        Border& border = borders[std::minmax(piece, other)];
+        const double z = std::min(p.z(), double(view.points(2, d)));
+        const double slope = STEEPEST * far * z / view.camera.fx;
+        ++border.pairs;
+        border.jumps += std::abs(p.z() - double(view.points(2, d))) >
+                        slope + SIGMAS * noise * z * z;
+      }
+  }
+  result.borders.assign(borders.begin(), borders.end());
+  return result;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/table_color.h"
+
+#include "sensor/observation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr int CELL = 40;           ///< pixels of the coarse grid: light changes slowly
+constexpr float SAME_COLOR = 1.0F; ///< steps of shadeOf()
+constexpr float UNEVEN = 2.0F;     ///< the same, between places of one table
+constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels
+constexpr float CLEARLY = 0.5F;    ///< of the distance to the table: the thing's own
+constexpr double OUTLINED = 0.7;   ///< of the outline, that is an edge of the colour
+constexpr double HIGHEST = 2.0;    ///< standing heights about the table
+constexpr int MISSING = 4;         ///< pixels without depth that are bridged
+
+float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
+  return (a - b).head<3>().norm(); // a shadow darkens the table, no more
+}
+
+} // namespace
+
+TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(view) {
+  if (view.colors.cols() == 0)
+    return;
+  columns_ = (view.width + CELL - 1) / CELL;
+  rows_ = (view.height + CELL - 1) / CELL;
+  std::vector<int> level; // pixels at the table's height, thin things' among them
+  for (int y = 0; y < view.height; y += 2)
+    for (int x = 0; x < view.width; x += 2) {
+      const int c = y * view.width + x;
+      if (!above(x, y) && view.finite(c) &&
+          std::abs(view.table.height(view.at(c))) <=
+              standingHeight(view.table, double(view.points(2, c))))
+        level.push_back(c);
+    }
+  if (level.empty())
+    return;
+  // most of it is the table: what is far from the middle of all colours is not
+  Eigen::Vector4f middle;
+  std::vector<float> values(level.size());
+  for (int k = 0; k < 4; ++k) {
+    for (std::size_t i = 0; i < level.size(); ++i)
+      values[i] = shadeOf(view.colors.col(level[i]).cast<double>())[k];
+    const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    middle[k] = *half;
+  }
+  cells_.assign(std::size_t(columns_) * std::size_t(rows_), middle);
+  std::vector<float> counts(cells_.size(), 1.0F); // where little is seen, the middle
+  for (const int c : level) {
+    const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
+    if (hueDistance(shade, middle) > UNEVEN)
+      continue;
+    const auto cell =
+        std::size_t(c / view.width / CELL * columns_ + c % view.width / CELL);
+    cells_[cell] += shade;
+    counts[cell] += 1.0F;
+  }
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    cells_[k] /= counts[k];
+}
+
+Eigen::Vector4f TableColor::near(int x, int y) const {
+  return cells_[std::size_t(y / CELL * columns_ + x / CELL)];
+}
+
+Eigen::Vector4f TableColor::shadeAt(int x, int y) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (int v = std::max(0, y - 1); v <= std::min(view_.height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(view_.width - 1, x + 1); ++u) {
+      sum += view_.colors.col(v * view_.width + u).cast<double>();
+      count += 1.0;
+    }
+  return shadeOf(sum / count);
+}
+
+std::vector<bool> TableColor::outlined(const LabelImage& labels) const {
+  std::vector<int> edges(65536, 0), colored(65536, 0);
+  const int w = view_.width;
+  for (int y = 1; y + 1 < view_.height && !cells_.empty(); ++y)
+    for (int x = 1; x + 1 < w; ++x) {
+      const std::uint16_t* at = &labels.values[std::size_t(y * w + x)];
+      if (*at == 0 || (at[-1] > 0 && at[1] > 0 && at[-w] > 0 && at[w] > 0))
+        continue;
+      ++edges[*at];
+      colored[*at] += hueDistance(shadeOf(view_.colors.col(y * w + x).cast<double>()),
+                                  near(x, y)) > SAME_COLOR;
+    }
+  std::vector<bool> result(65536, false);
+  for (std::size_t k = 1; k < result.size(); ++k)
+    result[k] = edges[k] > 0 && double(colored[k]) > OUTLINED * double(edges[k]);
+  return result;
+}
+
+bool TableColor::isRim(const Patch& patch) const {
+  if (cells_.empty() || !isThin(patch.pixels, view_.width, view_.height))
+    return false;
+  const int middle = patch.pixels[patch.pixels.size() / 2];
+  return hueDistance(shadeOf(patch.sums.color / patch.sums.count),
+                     near(middle % view_.width, middle / view_.width)) < SAME_COLOR;
+}
+
+void TableColor::growFeet(LabelImage& labels) const {
+  if (cells_.empty())
+    return;
+  struct Step {
+    int pixel;
+    Eigen::Vector4f shade; ///< of the thing where it began to grow
+    int missing;           ///< pixels without depth on the way
+  };
+  std::deque<Step> steps;
+  const int w = view_.width, h = view_.height;
+  for (int c = 0; c < w * h; ++c)
+    if (labels.values[std::size_t(c)] > 0)
+      steps.push_back({c, shadeAt(c % w, c / w), 0});
+  while (!steps.empty()) {
+    const Step step = steps.front();
+    steps.pop_front();
+    const int x = step.pixel % w, y = step.pixel / w;
+    for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+      const int u = x + dx, v = y + dy;
+      if (u < 0 || v < 0 || u >= w || v >= h ||
+          labels.values[std::size_t(v * w + u)] > 0)
+        continue;
+      const int c = v * w + u;
+      const int missing = view_.finite(c) ? 0 : step.missing + 1;
+      const bool level =
+          missing > 0
+              ? missing <= MISSING
+              : std::abs(view_.table.height(view_.at(c))) <
+                    HIGHEST * standingHeight(view_.table, double(view_.points(2, c)));
+      const Eigen::Vector4f shade = shadeAt(u, v);
+      const float from_table = hueDistance(shade, near(u, v));
+      if (!level || from_table < LIKE_TABLE ||
+          hueDistance(shade, step.shade) > CLEARLY * from_table)
+        continue;
+      labels.values[std::size_t(c)] = labels.values[std::size_t(step.pixel)];
+      steps.push_back({c, step.shade, missing});
+    }
+  }
+}
+
+} // namespace pcl_sq::detail

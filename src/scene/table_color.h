@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. What colour tells where depth does not: the rims that matching fattens, and
+// the lowest parts of things, which depth cannot tell from the table.
+#pragma once
+
+#include "scene/patches.h"
+
+namespace pcl_sq::detail {
+
+/** \brief The table's colour by place. */
+class TableColor {
+public:
+  /** \param[in] above pixels that are not the table's */
+  TableColor(const SceneView& view, const CellMask& above);
+
+  /** \brief Whether patches that are but rims have the table's colour: depth that
+   * matching windows have given to the table beside a thing. */
+  [[nodiscard]] bool isRim(const Patch& patch) const;
+
+  /** \brief Adds to things the pixels at the height of the table that have their colour
+   * and not the table's. */
+  void growFeet(LabelImage& labels) const;
+
+  /** \brief Of each label whether its pixels end where the colour does: their outline
+   * is then as sharp as a mask's. */
+  [[nodiscard]] std::vector<bool> outlined(const LabelImage& labels) const;
+
+private:
+  /** \brief Mean colour of a pixel and its neighbours. */
+  Eigen::Vector4f shadeAt(int x, int y) const;
+  Eigen::Vector4f near(int x, int y) const;
+
+  const SceneView& view_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<Eigen::Vector4f> cells_; ///< mean shade, of a coarse grid
+};
+
+} // namespace pcl_sq::detail

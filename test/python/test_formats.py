@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exports read back by the formats' own tools, files by their schemas, where these are there."""
+import json
+import os
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import pcl_sq
+
+SCHEMAS = os.path.join(os.environ["PCL_SQ_SOURCE_DIR"], "docs", "schemas")
+
+
+@pytest.fixture(scope="module")
+def model(bottle):
+    cup = pcl_sq.Superquadric([0.04, 0.04, 0.05], epsilon=(0.2, 1.0), center=[0.2, 0, 0.7],
+                              rim=0.9, wall=0.004)
+    return pcl_sq.Model.from_parts(bottle[0] + [cup])
+
+
+def tool(name):
+    path = shutil.which(name)
+    if path is None:
+        pytest.skip(name + " is not installed")
+    return path
+
+
+def test_check_urdf_takes_the_urdf(model, tmp_path):
+    model.export(tmp_path / "thing.urdf")
+    done = subprocess.run([tool("check_urdf"), tmp_path / "thing.urdf"], capture_output=True,
+                          text=True, check=True)
+    assert "Successfully Parsed" in done.stdout and "thing" in done.stdout
+    assert len(list(tmp_path.glob("*.stl"))) > 10  # the cup's wall
+
+
+def test_sdf_is_well_formed_xml(model, tmp_path):
+    from xml.etree import ElementTree
+    model.export(tmp_path / "thing.sdf", density=1000, mesh_prefix="model://thing/")
+    root = ElementTree.parse(tmp_path / "thing.sdf").getroot()
+    mass = float(root.find("model/link/inertial/mass").text)
+    assert mass == pytest.approx(1000 * model.union.volume, rel=1e-6)
+    for uri in root.iter("uri"):
+        assert (tmp_path / uri.text.replace("model://thing/", "")).exists()
+
+
+@pytest.mark.parametrize("ending", ["glb", "stl"])
+def test_assimp_reads_what_is_written(model, tmp_path, ending):
+    model.export(tmp_path / "thing.glb")
+    model.export(tmp_path / "thing.urdf")
+    path = tmp_path / ("thing.glb" if ending == "glb" else "thing_visual.stl")
+    done = subprocess.run([tool("assimp"), "info", path], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    if ending == "glb":
+        assert "Meshes:             3" in done.stdout, done.stdout
+        for part in (1, 2, 3):
+            assert "part %d" % part in done.stdout
+
+
+def test_the_programs_write_the_same(model, program, tmp_path):
+    model.save(tmp_path / "thing.json")
+    program("pcl_sq_snapshot", tmp_path / "thing.json", "--export", tmp_path / "a.glb",
+            "--export", tmp_path / "a.scene", "--export", tmp_path / "a.urdf", "--html",
+            tmp_path / "a.html", "-q")
+    for ending in ("glb", "scene", "urdf"):
+        program_wrote = (tmp_path / ("a." + ending)).read_bytes()
+        os.makedirs(tmp_path / "py", exist_ok=True)
+        model.export(tmp_path / "py" / ("a." + ending))
+        assert (tmp_path / "py" / ("a." + ending)).read_bytes() == program_wrote
+    assert (tmp_path / "a.html").stat().st_size > 10000
+
+
+def test_another_ending_is_refused(model, tmp_path):
+    with pytest.raises(pcl_sq.OptionError, match="glb"):
+        model.export(tmp_path / "thing.step")
+    with pytest.raises(pcl_sq.Error):
+        pcl_sq.Model.from_parts([]).export(tmp_path / "nothing.glb")
+
+
+def schema(name):
+    jsonschema = pytest.importorskip("jsonschema")
+    with open(os.path.join(SCHEMAS, name)) as file:
+        contents = json.load(file)
+    jsonschema.Draft7Validator.check_schema(contents)
+    return jsonschema.Draft7Validator(contents)
+
+
+def test_models_and_grasps_are_as_their_schemas_say(model, bottle, program, tmp_path):
+    validator = schema("model.schema.json")
+    validator.validate(json.loads(model.to_json()))
+    estimated = pcl_sq.estimate(bottle[1])
+    validator.validate(json.loads(estimated.to_json()))
+    tapered = pcl_sq.Model.from_parts([pcl_sq.Superquadric([1, 1, 2], taper=(0.2, 0.1))])
+    validator.validate(json.loads(tapered.to_json()))
+    broken = json.loads(model.to_json())
+    broken["superquadrics"][0]["epsilon"] = [3, 1]
+    assert not validator.is_valid(broken)
+    estimated.save(tmp_path / "m.json")
+    program("pcl_sq_grasp", tmp_path / "m.json", "-q", "-o", tmp_path / "g.json")
+    schema("grasps.schema.json").validate(json.loads((tmp_path / "g.json").read_text()))
+
+
+def test_a_scene_of_moveit_names_object_and_table(tmp_path):
+    file = pcl_sq.Model.from_parts([pcl_sq.Superquadric([0.1] * 3)])
+    text = json.loads(file.to_json())
+    text.update(table=[0, 0, 1, 0.1], version=3)
+    pcl_sq.Model.from_json(json.dumps(text)).export(tmp_path / "ball.scene")
+    lines = (tmp_path / "ball.scene").read_text().splitlines()
+    assert lines[0] == "ball" and lines[-1] == "."
+    assert [l for l in lines if l.startswith("* ")] == ["* ball", "* ball_table"]
+    assert "sphere" in lines and np.isclose(float(lines[lines.index("sphere") + 1]), 0.1)
