@@ -12,19 +12,18 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_COST = 9.2;   ///< of a point, as an outlier
+constexpr double MAX_COST = 9.2; ///< of a point, as an outlier
 constexpr double LARGER =
     1.25;                      ///< a handle than the box of its points: one side is hid
-constexpr double STRAY = 0.05;     ///< of a handle's points, at either end
+constexpr double STRAY = 0.05; ///< of a handle's points, at either end
 constexpr double STANDS_OFF = 4.0; ///< sigmas from its box
 /** \brief Twice the logarithm of the odds, about 400 to 1, that a handle is a bent rod
  * and no disc: fingers go through. */
 constexpr double ROD = 12.0;
 
 /** \brief Mean cost of points, none more than an outlier's. */
-double costPerPoint(const Superquadric& s,
-                    const Eigen::Matrix3Xd& points,
-                    double noise) {
+double
+costPerPoint(const Superquadric& s, const Eigen::Matrix3Xd& points, double noise) {
   double cost = 0.0;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     cost += std::min(std::pow(s.footPointDistance(points.col(i)) / noise, 2), MAX_COST);
@@ -40,9 +39,8 @@ void choose(Piece& handle, const ShapeCandidate& c) {
 }
 
 /** \brief The bent rod nearest to a handle's points. */
-std::optional<ShapeCandidate> rodAlong(const PieceContext& context,
-                                       const Piece& handle,
-                                       const Superquadric& around) {
+std::optional<ShapeCandidate>
+rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& around) {
   const ObservedObject& o = context.observed;
   const Eigen::Matrix3Xd points = gather(context, handle.points);
   ViewFitOptions options = context.options.fit;
@@ -63,8 +61,7 @@ std::optional<ShapeCandidate> rodAlong(const PieceContext& context,
   ShapeCandidate nothing_near; // so that a rod is looked for
   nothing_near.cost = 1e299;
   nothing_near.model = problem.frame().toUnit(around);
-  std::optional<ShapeCandidate> rod =
-      fitBent(problem, problem.noise(), {nothing_near});
+  std::optional<ShapeCandidate> rod = fitBent(problem, problem.noise(), {nothing_near});
   if (rod)
     rod->model = problem.frame().toCloud(rod->model);
   return rod;
@@ -80,8 +77,7 @@ bool isSlender(const Superquadric& s) {
 /** \brief Makes a handle that is no rod, a disc around its points for instance, a bent
  * one where that explains the points as well. */
 void preferRod(const PieceContext& context, Piece& handle, const Superquadric& around) {
-  if (handle.fit.chosen.shape == ShapeClass::BENT ||
-      isSlender(handle.fit.chosen.model))
+  if (handle.fit.chosen.shape == ShapeClass::BENT || isSlender(handle.fit.chosen.model))
     return;
   std::optional<ShapeCandidate> rod = rodAlong(context, handle, around);
   if (!rod || !rod->model.isValid() ||
