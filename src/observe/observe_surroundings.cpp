@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an object is seen against: what hides it (M31) and what is seen past it.
+// What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
 #include "util/order_statistic.h"
