@@ -32,20 +32,6 @@ Superquadric& addRod(ViewScene& scene, double bend) {
 
 } // namespace
 
-TEST(BentFit, BananaIsOneBentRodTrueToSize) {
-  for (const double bend : {8.0, 13.0}) {
-    ViewScene scene = finerScene();
-    const Superquadric truth = addRod(scene, bend);
-    ASSERT_TRUE(truth.isValid());
-    scene.render(0.001);
-    const ObjectFit fit = fitScene(scene);
-    ASSERT_EQ(fit.model.size(), 1u);
-    EXPECT_EQ(fit.parts[0].chosen.shape, ShapeClass::BENT);
-    EXPECT_GT(overlap(fit.model, scene.object), 0.85);
-    EXPECT_NEAR(std::abs(fit.model.parts[0].bend), bend, 0.1 * bend);
-  }
-}
-
 TEST(BentFit, StraightRodStaysStraight) {
   ViewScene scene = finerScene();
   addRod(scene, 0.0);
