@@ -60,7 +60,8 @@ bool robotObject(const ModelFile& file,
   MultiSuperquadric centred = file.model;
   for (Superquadric& part : centred.parts)
     part.center -= object.origin;
-  object.meshes.push_back({meshName(options, 0), stlBytes(centred.meshParts(DIVISIONS))});
+  object.meshes.push_back(
+      {meshName(options, 0), stlBytes(centred.meshParts(DIVISIONS))});
   for (std::size_t i = 0; i < object.shapes.size(); ++i)
     if (object.shapes[i].kind == CollisionShape::MESH)
       object.meshes.push_back(
