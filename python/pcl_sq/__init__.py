@@ -62,7 +62,7 @@ def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
                  calibration: Sequence[str], options: Any) -> Model:
     try:
         from . import _stereo
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         raise Error("this pcl_sq was built without stereo; build it with "
                     "PCL_SQ_BUILD_STEREO=ON.") from error
 

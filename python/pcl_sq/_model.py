@@ -156,7 +156,7 @@ class Model:
         top, iso or camera."""
         try:
             from . import _render
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise Error("this pcl_sq was built without pictures; build it with "
                         "PCL_SQ_BUILD_VISUALIZATION=ON.") from error
         upwards = self.report.get("up") if up is None else up

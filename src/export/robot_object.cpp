@@ -56,10 +56,12 @@ bool robotObject(const ModelFile& file,
   for (const Superquadric& part : file.model.parts)
     for (CollisionShape& shape : collisionShapes(part, options.primitive_tolerance))
       object.shapes.push_back(std::move(shape));
+  constexpr int DIVISIONS = 12; // some 1,700 triangles a part are light to draw
   MultiSuperquadric centred = file.model;
   for (Superquadric& part : centred.parts)
     part.center -= object.origin;
-  object.meshes.push_back({meshName(options, 0), stlBytes(centred.meshUnion())});
+  object.meshes.push_back(
+      {meshName(options, 0), stlBytes(centred.meshParts(DIVISIONS))});
   for (std::size_t i = 0; i < object.shapes.size(); ++i)
     if (object.shapes[i].kind == CollisionShape::MESH)
       object.meshes.push_back(

@@ -111,6 +111,8 @@ def test_a_union_takes_the_nearest_part():
 def test_pickled_bodies_are_the_same():
     body = pcl_sq.Superquadric([1, 2, 3], epsilon=(0.5, 0.7), taper=(0.1, -0.2), rim=0.5,
                                wall=0.1)
+    bent = pcl_sq.Superquadric([0.02, 0.02, 0.1], bend=(5.0, 0.3))
+    assert pickle.loads(pickle.dumps(bent)).bend == (5.0, 0.3)
     again = pickle.loads(pickle.dumps(body))
     assert repr(again) == repr(body) and again.wall == body.wall and again.rim == body.rim
 
