@@ -19,7 +19,7 @@ constexpr double RESOLVED = 3.0;
 /** \brief Things are no vessels: how far they are off, in the points' deviation; and
  * the share of the points within so many of those that a vessel with a handle explains.
  */
-constexpr double MODEL_ERROR = 0.01, STANDS_OFF = 4.0, EXPLAINED = 0.85;
+constexpr double MODEL_ERROR = 0.01, STANDS_OFF = 4.0, EXPLAINED = 0.75;
 constexpr double MIN_SIGMA = 1e-3; ///< of points without noise, in their deviation
 /** \brief Share of the points that a solid hides, from which on they are no outliers.
  */
@@ -174,7 +174,9 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
                                            const ShapeCandidate& solid) {
   constexpr int ROUNDS = 3;
   const UnitPoints& points = problem.medium();
-  double own = sigma;
+  // most vessels are none to within the noise: foot and rim are thicker than the wall
+  double own = std::max(sigma, WIDE);
+  vessel = VesselFamily(problem, points, 2.0 * own).fit(vessel, ITERATIONS);
   for (int round = 0; round < ROUNDS; ++round) {
     own = std::min(own, scatterOf(points, own, vessel.model));
     vessel = VesselFamily(problem, points, own).fit(vessel, ITERATIONS);

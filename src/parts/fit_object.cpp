@@ -24,6 +24,9 @@ constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own er
 /** \brief Share of a vessel's points off it that are no handle: more are another part,
  * such as a bottle's neck. */
 constexpr double MOST_UNEXPLAINED = 0.05;
+/** \brief Of the vessel's size, that its foot stands off its wall, over the sigmas that
+ * points off a body are away. */
+constexpr double FOOT = 0.0125;
 /** \brief Share of a vessel's points that may be its handle's. */
 constexpr double MOST_OF_HANDLE = 0.15;
 /** \brief Share of a vessel's surface that has points: between a table's legs are none.
@@ -87,8 +90,10 @@ bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
   Piece body, handle;
   const bool has_handle = standsOff(context, pieces[0], body, handle);
   const double all = double(pieces[0].points.size());
+  PieceContext rough = context; // feet and rims thicker than the wall are no parts
+  rough.noise = std::max(context.noise, FOOT * context.observed.extent);
   if (double(handle.points.size()) > MOST_OF_HANDLE * all ||
-      double(pointsOff(context, pieces[0])) - double(handle.points.size()) >
+      double(pointsOff(rough, pieces[0])) - double(handle.points.size()) >
           MOST_UNEXPLAINED * all) {
     context.noise = noise;
     return false;
@@ -112,12 +117,7 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
       context.observed, options, context.noise, context.precision, context.limits};
   if (whole.fit.chosen.shape == ShapeClass::VESSEL)
     fitPiece(solids, whole, Effort::AGAIN);
-  return fitOutside(
-      solids,
-      splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain),
-      wanted,
-      exactly,
-      min_gain);
+  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of

@@ -19,14 +19,4 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    bool exactly,
                                    double min_gain);
 
-/** \brief The outside of a hollow thing as parts, where the parts of all points explain
- * those badly and those of the outer points explain theirs well.
- * \param[in] pieces the parts of all points \return them or those of the outer points;
- * the other arguments as of splitWholeCloud() */
-std::vector<Piece> fitOutside(const PieceContext& context,
-                              std::vector<Piece> pieces,
-                              int wanted,
-                              bool exactly,
-                              double min_gain);
-
 } // namespace pcl_sq::detail

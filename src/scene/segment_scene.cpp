@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Things told apart (M30): superpixels joined to patches where nothing speaks against
+// Things told apart (M25): superpixels joined to patches where nothing speaks against
 // it, patches to things where the evidence is for one thing.
 #include "scene/segment_scene.h"
 

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit_scene.h"
+
+#include "observe/sheets.h"
+#include "parts/exposed_area.h"
+#include "util/cloud_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+namespace {
+
+Superquadric boxAt(const Eigen::Vector3d& semi_axes, const Eigen::Vector3d& center) {
+  Superquadric s;
+  s.semi_axes = semi_axes;
+  s.center = center;
+  s.epsilon1 = s.epsilon2 = 0.1;
+  return s;
+}
+
+constexpr int LEGS = 4;
+
+/** \brief The top, then the legs. */
+MultiSuperquadric table() {
+  MultiSuperquadric t;
+  t.parts.push_back(boxAt({0.5, 0.35, 0.02}, {0.0, 0.0, 0.7}));
+  for (int k = 0; k < LEGS; ++k) {
+    t.parts.push_back(boxAt({0.025, 0.025, 0.35},
+                            {k % 2 ? 0.42 : -0.42, k / 2 ? 0.28 : -0.28, 0.35}));
+    t.parts.back().epsilon2 = 1.0;
+  }
+  return t;
+}
+
+/** \brief Points spread evenly over the outside of a union. */
+Eigen::Matrix3Xd outsideOf(const MultiSuperquadric& object, double points_per_area) {
+  std::vector<Eigen::Vector3d> surface;
+  for (std::size_t k = 0; k < object.size(); ++k) {
+    const auto count =
+        std::size_t(points_per_area * detail::exposedArea({object.parts[k]}));
+    for (const Eigen::Vector3d& p : sampleUniform(object.parts[k], count, unsigned(k)))
+      if (std::none_of(object.parts.begin(), object.parts.end(), [&](const auto& s) {
+            return &s != &object.parts[k] && s.gauge(p) < 1.0;
+          }))
+        surface.push_back(p);
+  }
+  Eigen::Matrix3Xd points(3, Eigen::Index(surface.size()));
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    points.col(Eigen::Index(i)) = surface[i];
+  return points;
+}
+
+/** \brief A pan as a shallow box of sheet: both sides of its bottom and walls. */
+Eigen::Matrix3Xd pan() {
+  Random random(5);
+  Eigen::Matrix3Xd points(3, 3000);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double radius = 0.12 * std::sqrt(random.uniform(0.0, 1.0));
+    const double turn = random.uniform(0.0, 6.283);
+    points.col(i) << radius * std::cos(turn), radius * std::sin(turn),
+        0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.004);
+  }
+  return points;
+}
+
+ObservedObject observe(const Eigen::Matrix3Xd& points, Coverage coverage) {
+  ViewOptions view;
+  view.coverage = coverage;
+  ObservedObject observed;
+  std::string why;
+  EXPECT_TRUE(observeObject(
+      points.cast<float>(), int(points.cols()), 1, {}, view, observed, &why))
+      << why;
+  return observed;
+}
+
+} // namespace
+
+TEST(CloudGraph, LegsOfATableAreItsLimbs) {
+  const MultiSuperquadric object = table();
+  const Eigen::Matrix3Xd points = outsideOf(object, 1500.0);
+  const detail::CloudGraph graph(points);
+  detail::Segment all(std::size_t(points.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(graph.components(all).size(), 1u);
+  std::size_t most = 0;
+  for (const auto& segments : graph.limbs(all, Eigen::Matrix3d::Identity(), 24)) {
+    most = std::max(most, segments.size());
+    std::size_t points_of_all = 0;
+    for (const auto& segment : segments)
+      points_of_all += segment.size();
+    EXPECT_EQ(points_of_all, all.size()) << "each point is in one segment";
+  }
+  EXPECT_EQ(most, std::size_t(LEGS + 1));
+}
+
+TEST(WholeCloud, EveryLegOfATableIsAPart) {
+  const MultiSuperquadric object = table();
+  const ObjectFit fit =
+      fitObject(observe(outsideOf(object, 2000.0), Coverage::AUTOMATIC));
+  ASSERT_EQ(fit.model.size(), object.size());
+  for (std::size_t k = 0; k < object.size(); ++k) {
+    double nearest = 1e300, longest = 0.0;
+    for (const Superquadric& part : fit.model.parts)
+      if (const double d = (part.center - object.parts[k].center).norm(); d < nearest) {
+        nearest = d;
+        longest = part.semi_axes.maxCoeff();
+      }
+    EXPECT_LT(nearest, 0.03) << "part " << k;
+    EXPECT_NEAR(longest, object.parts[k].semi_axes.maxCoeff(), 0.05) << "part " << k;
+  }
+}
+
+TEST(WholeCloud, AFreeNumberOfPartsIsNoWorseThanAGivenOne) {
+  const Eigen::Matrix3Xd points = outsideOf(table(), 2000.0);
+  const ObservedObject observed = observe(points, Coverage::COMPLETE);
+  const auto meanDistance = [&](int parts) {
+    ObjectFitOptions options;
+    options.parts = parts;
+    const MultiSuperquadric model = fitObject(observed, options).model;
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      sum += std::abs(model.euclideanDistance(points.col(i))) / double(points.cols());
+    return sum;
+  };
+  const double free = meanDistance(0);
+  for (const int parts : {1, 2, 3, 5})
+    EXPECT_LE(free, meanDistance(parts) + 2e-4) << parts << " parts";
+}
+
+TEST(WholeCloud, NoPartLeavesTheBoxOfThePoints) {
+  const Eigen::Matrix3Xd points = pan();
+  const ObjectFit fit = fitObject(observe(points, Coverage::COMPLETE));
+  const Eigen::Vector3d low = points.rowwise().minCoeff(),
+                        high = points.rowwise().maxCoeff();
+  const double slack = 0.05 * (high - low).maxCoeff();
+  ASSERT_FALSE(fit.model.empty());
+  for (const Superquadric& part : fit.model.parts) {
+    EXPECT_LT((part.boundingBox().max() - high).maxCoeff(), slack);
+    EXPECT_LT((low - part.boundingBox().min()).maxCoeff(), slack);
+  }
+}
+
+TEST(Coverage, APanFromAllRoundIsNoViewUnlessTheUserSaysSo) {
+  const Eigen::Matrix3Xd points = pan();
+  EXPECT_TRUE(detail::hasTwoSides(points));
+  EXPECT_FALSE(observe(points, Coverage::AUTOMATIC).hasCamera());
+  EXPECT_TRUE(observe(points, Coverage::ONE_SIDED).hasCamera());
+}
+
+TEST(Coverage, HalfABallIsAViewUnlessTheUserSaysItIsComplete) {
+  Random random(6);
+  Eigen::Matrix3Xd points(3, 2000);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    Eigen::Vector3d p(random.normal(), random.normal(), random.normal());
+    p.normalize();
+    p.z() = std::abs(p.z());
+    points.col(i) = (0.1 + 0.001 * random.normal()) * p;
+  }
+  EXPECT_FALSE(detail::hasTwoSides(points));
+  EXPECT_TRUE(observe(points, Coverage::AUTOMATIC).hasCamera());
+  EXPECT_FALSE(observe(points, Coverage::COMPLETE).hasCamera());
+}
