@@ -15,6 +15,7 @@
 #include <opencv2/core.hpp>
 #include <pcl/common/io.h>
 
+#include <cfloat>
 #include <limits>
 
 using namespace pcl_sq;
@@ -53,7 +54,7 @@ void checkOutputs(const Outputs& o) {
 }
 
 void writeDisparity(const std::string& path, const cv::Mat& disparity) {
-  const cv::Mat missing = disparity != disparity;
+  const cv::Mat missing = ~(disparity > -FLT_MAX); // a NaN is not larger
   cv::Mat out = disparity.clone();
   if (formatOf(path, ".png") == ".pfm")
     out.setTo(std::numeric_limits<float>::infinity(), missing);

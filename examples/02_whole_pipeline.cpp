@@ -15,17 +15,21 @@ namespace {
 /** \brief A jar on a table, seen from the front: x right, y down, z forward [m]. */
 pcl::PointCloud<pcl::PointXYZ>::Ptr jarOnTable() {
   auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (float x = -0.3F; x < 0.3F; x += 0.005F)
-    for (float z = 0.7F; z < 1.3F; z += 0.005F)
+  for (int i = -60; i < 60; ++i)
+    for (int k = 0; k < 120; ++k) {
+      const auto x = 0.005F * float(i), z = 0.7F + 0.005F * float(k);
       cloud->push_back(pcl::PointXYZ(x, 0.1F, z));
-  const auto addWall = [&](float radius, float top, float bottom) {
-    for (float y = top; y < bottom; y += 0.002F)
-      for (float angle = 3.2F; angle < 6.2F; angle += 0.05F)
+    }
+  const auto addWall = [&](float radius, float top, int rows) {
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < 60; ++k) {
+        const auto y = top + 0.002F * float(i), angle = 3.2F + 0.05F * float(k);
         cloud->push_back(pcl::PointXYZ(
             radius * std::cos(angle), y, 1.0F + radius * std::sin(angle)));
+      }
   };
-  addWall(0.05F, -0.03F, 0.1F);   // the jar
-  addWall(0.04F, -0.08F, -0.03F); // its neck
+  addWall(0.05F, -0.03F, 65); // the jar
+  addWall(0.04F, -0.08F, 25); // its neck
   return cloud;
 }
 

@@ -35,6 +35,8 @@ void printParts(const ModelResult& result) {
                 1e3 * statistics.rms_distance);
     if (s.isTapered())
       std::printf("   taper %.3f %.3f", s.kx, s.ky);
+    if (s.isBent())
+      std::printf("   bent, radius %.0f mm", 1e3 / std::abs(s.bend));
     if (s.isHollow())
       std::printf("   open, wall %.1f mm", 1e3 * s.wall);
     std::printf("\n");

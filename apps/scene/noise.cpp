@@ -45,12 +45,14 @@ double solidNoise(const Eigen::Vector3d& p,
                   double footprint,
                   std::uint64_t seed) {
   double sum = 0.0, power = 0.0, amplitude = 1.0;
-  for (double wave = coarse; wave >= fine; wave *= 0.5) {
+  double wave = coarse;
+  while (wave >= fine) {
     power += amplitude * amplitude;
     const double share = std::clamp(wave / (2.0 * footprint) - 1.0, 0.0, 1.0);
     if (share > 0.0)
       sum += amplitude * share * latticeNoise(p / wave, ++seed);
     amplitude *= 0.85;
+    wave *= 0.5;
   }
   return 1.8 * sum / std::sqrt(power);
 }

@@ -161,7 +161,8 @@ RenderedImage render(const Scene& scene,
   RenderedImage image;
   image.width = camera.width;
   image.height = camera.height;
-  image.bgr.resize(3 * static_cast<std::size_t>(camera.width * camera.height));
+  image.bgr.resize(3 * static_cast<std::size_t>(camera.width) *
+                   static_cast<std::size_t>(camera.height));
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
@@ -169,8 +170,8 @@ RenderedImage render(const Scene& scene,
       const std::uint64_t key = mixBits(scene.seed * 1024 + view) + 16 * pixel;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (int sample = 0; sample < n * n; ++sample) {
-        const double du = (sample % n + 0.5) / n - 0.5;
-        const double dv = (sample / n + 0.5) / n - 0.5;
+        const int row = sample / n, column = sample % n;
+        const double du = (column + 0.5) / n - 0.5, dv = (row + 0.5) / n - 0.5;
         const Eigen::Vector3d ray = camera.ray(u + du, v + dv);
         // a lamp of 6 cm: soft shadows
         const Eigen::Vector3d jitter =
@@ -202,7 +203,9 @@ RenderedTruth renderTruth(const Scene& scene,
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
-      const auto pixel = static_cast<std::size_t>(v * camera.width + u);
+      const auto pixel =
+          static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) +
+          static_cast<std::size_t>(u);
       const Sight s = caster.look(camera.position, camera.ray(u, v));
       truth.depth[pixel] = static_cast<float>(s.t); // rays have z = 1
       truth.mask[pixel] = s.surface == Surface::OBJECT ? 255 : 0;
@@ -210,7 +213,9 @@ RenderedTruth renderTruth(const Scene& scene,
   int left = camera.width, right = -1, top = camera.height, bottom = -1;
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
-      if (truth.mask[static_cast<std::size_t>(v * camera.width + u)] != 0) {
+      if (truth.mask[static_cast<std::size_t>(v) *
+                         static_cast<std::size_t>(camera.width) +
+                     static_cast<std::size_t>(u)] != 0) {
         ++truth.visible_pixels;
         left = std::min(left, u);
         right = std::max(right, u);

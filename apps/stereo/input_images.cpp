@@ -21,7 +21,7 @@ void collect(const cv::Mat& image, std::vector<float>& values) {
   for (int v = 0; v < floats.rows; ++v) {
     const auto* row = floats.ptr<float>(v);
     std::copy_if(row,
-                 row + floats.cols * floats.channels(),
+                 row + static_cast<std::ptrdiff_t>(floats.cols) * floats.channels(),
                  std::back_inserter(values),
                  [](float x) { return std::isfinite(x); });
   }

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace pcl_sq::app {
@@ -35,7 +36,7 @@ texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
     return {};
   const cv::Mat& disparity = stereo.disparity;
   cv::Mat x(disparity.size(), CV_32F), y(disparity.size(), CV_32F);
-  cv::Mat known = disparity == disparity; // 0 or 255
+  cv::Mat known = disparity > -FLT_MAX; // 0 for NaN, else 255
   for (int v = 0; v < disparity.rows; ++v)
     for (int u = 0; u < disparity.cols; ++u) {
       const float d = disparity.at<float>(v, u);

@@ -43,6 +43,12 @@ using SuperquadricCoefficients = Eigen::Matrix<double, 11, 1>;
  * and F and G are those at the straight place. A tapered body has no centre of symmetry
  * and need not be convex; turned by 180 degrees about x it has the opposite taper.
  *
+ * After the taper the z axis may be bent to a circle (a banana, a handle): with
+ * \f$ R = 1/\kappa \f$ and X along the direction at the bend's angle in the xy plane,
+ * \f[ x = R - (R - X) \cos(Z / R), \quad z = (R - X) \sin(Z / R) \f]
+ * which takes volumes where the section is symmetric as they are, and lengths along z
+ * by 1 - X / R. A bent body has neither rim nor wall.
+ *
  * The body may be cut at a rim, the plane z = rim a3, above which there is nothing; and
  * it may be hollow, a bowl or a mug: open at the rim, the hollow's section is the
  * body's with both semi-axes shorter by the wall, its floor the wall's thickness above
@@ -58,6 +64,10 @@ struct PCL_SQ_EXPORTS Superquadric {
   static constexpr double MAX_EPSILON = 2.0;
   /** \brief Largest |kx|, |ky|; 1 would be an apex. */
   static constexpr double MAX_TAPER = 0.95;
+  /** \brief Largest |bend| a3 [rad]: to either side of the middle; pi closes a ring. */
+  static constexpr double MAX_BEND = 3.0;
+  /** \brief Largest |bend| times the section's reach; from 1 on the body folds. */
+  static constexpr double MAX_FOLD = 0.95;
 
   Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< [m], the cloud's frame, to 1e20
   /** \brief Columns: the superquadric's axes in the cloud's frame. */
@@ -71,6 +81,8 @@ struct PCL_SQ_EXPORTS Superquadric {
   double rim = 1.0; ///< height of the rim over a3, in (-1, 1]; 1: the body is not cut
   /** \brief Thickness of the wall of a hollow body, open at its rim [m]; 0: solid. */
   double wall = 0.0;
+  double bend = 0.0;       ///< curvature kappa of the z axis after the taper [1/m]
+  double bend_angle = 0.0; ///< direction of the circle's centre in the xy plane [rad]
 
   /** \brief Whether the cross-section changes along z. */
   bool isTapered() const { return kx != 0.0 || ky != 0.0; }
@@ -78,16 +90,21 @@ struct PCL_SQ_EXPORTS Superquadric {
   bool isHollow() const { return wall > 0.0; }
   /** \brief Whether the body ends at a rim. */
   bool isCut() const { return rim < 1.0 || isHollow(); }
-  /** \brief Whether the body is one of the paper's: neither tapered nor cut. */
-  bool isPlain() const { return !isTapered() && !isCut(); }
+  /** \brief Whether the z axis is bent. */
+  bool isBent() const { return bend != 0.0; }
+  /** \brief Whether the body is tapered or bent. */
+  bool isDeformed() const { return isTapered() || isBent(); }
+  /** \brief Whether the body is one of the paper's: neither tapered, bent nor cut. */
+  bool isPlain() const { return !isDeformed() && !isCut(); }
   /** \brief Height of the rim over a3; a hollow body that is not cut is open a
    * thousandth below its top, where its section has a size. */
   double rimHeight() const { return isHollow() ? std::min(rim, 0.999) : rim; }
   /** \brief Half the sides of a box in the own axes, around the centre, that holds the
-   * body [m]: the semi-axes where there is no taper. */
+   * body [m]: the semi-axes where there is neither taper nor bend. */
   Eigen::Vector3d halfSizes() const {
-    return semi_axes.cwiseProduct(
-        Eigen::Vector3d(1.0 + std::abs(kx), 1.0 + std::abs(ky), 1.0));
+    return isBent() ? bentHalfSizes()
+                    : semi_axes.cwiseProduct(
+                          Eigen::Vector3d(1.0 + std::abs(kx), 1.0 + std::abs(ky), 1.0));
   }
 
   /** \brief Whether all numbers are finite and in range and the rotation is a rotation.
@@ -103,12 +120,13 @@ struct PCL_SQ_EXPORTS Superquadric {
     return rotation * local + center;
   }
 
-  /** \brief Where the taper takes a point of the straight body; both in the cloud's
-   * frame. */
-  Eigen::Vector3d tapered(const Eigen::Vector3d& point) const;
-  /** \brief Inverse of tapered(). Beyond the apex, where there is none, the section is
-   * taken to shrink no further than at MAX_TAPER. */
-  Eigen::Vector3d untapered(const Eigen::Vector3d& point) const;
+  /** \brief Where taper and bend take a point of the straight body; both in the
+   * cloud's frame. */
+  Eigen::Vector3d deformed(const Eigen::Vector3d& point) const;
+  /** \brief Inverse of deformed(). Beyond the apex, where there is none, the section is
+   * taken to shrink no further than at MAX_TAPER; angles around the circle are those in
+   * (-pi, pi]. */
+  Eigen::Vector3d straightened(const Eigen::Vector3d& point) const;
 
   /** \brief Whether a point lies in or on the body, filled up to its rim. */
   bool contains(const Eigen::Vector3d& point) const { return gauge(point) <= 1.0; }
@@ -130,7 +148,7 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Gradient of G in the cloud's frame [1/m]. */
   Eigen::Vector3d gaugeGradient(const Eigen::Vector3d& point) const;
   /** \brief Derivatives of ln G at a point for the eleven parameters of the paper, a
-   * taper held.
+   * taper and a bend held.
    *
    * Order: t (3, moving along the superquadric's own axes), w (3, right rotation
    * R exp([w]x)), ln a1, ln a2, ln a3, e1, e2. (algorithm: chain rule over the nested
@@ -138,7 +156,7 @@ struct PCL_SQ_EXPORTS Superquadric {
   SuperquadricCoefficients logGaugeJacobian(const Eigen::Vector3d& point) const;
 
   /** \brief Signed distance to radialProjection(), |y| (1 - 1/G) [m] along the ray from
-   * the centre where there is no taper (Gross & Boult 1988); minus the smallest
+   * the centre where there is no deformation (Gross & Boult 1988); minus the smallest
    * semi-axis at the centre. */
   double radialDistance(const Eigen::Vector3d& point) const;
   /** \brief Signed first-order distance (G - 1) / |grad G| [m] (Taubin 1991); a lower
@@ -155,7 +173,7 @@ struct PCL_SQ_EXPORTS Superquadric {
   double euclideanDistance(const Eigen::Vector3d& point) const;
 
   /** \brief Point of the surface on the ray from the centre through \a point, of a
-   * tapered body the same before tapering; for the centre itself the end of the
+   * tapered or bent body the same before that; for the centre itself the end of the
    * shortest semi-axis. */
   Eigen::Vector3d radialProjection(const Eigen::Vector3d& point) const;
   /** \brief Outward unit normal of the level surface through \a point. */
@@ -164,10 +182,11 @@ struct PCL_SQ_EXPORTS Superquadric {
   /** \brief Support function h(n) = max { n.(p - center) : p on the surface } [m].
    *
    * The dual of a superquadric is a superquadric with exponents 2 - epsilon, which
-   * gives a closed form. A tapered body is cut into slices and h found to about 1e-9 of
-   * its size: it is the support function of the convex hull (with e2 > 1.98 that of
-   * e2 = 1.98). The width between parallel plates of unit normal n is h(n) + h(-n).
-   * \param[in] direction n in the cloud's frame; h is homogeneous of degree one in it
+   * gives a closed form. A tapered or bent body is cut into slices and h found to about
+   * 1e-9 of its size: it is the support function of the convex hull (with e2 > 1.98
+   * that of e2 = 1.98). The width between parallel plates of unit normal n is h(n) +
+   * h(-n). \param[in] direction n in the cloud's frame; h is homogeneous of degree one
+   * in it
    */
   double support(const Eigen::Vector3d& direction) const;
   /** \brief Surface point in which h(n) is attained, in the cloud's frame. */
@@ -197,7 +216,7 @@ struct PCL_SQ_EXPORTS Superquadric {
   Eigen::Matrix3d inertia() const;
 
   /** \brief The coefficients in PCL's order, see SuperquadricCoefficients; they hold no
-   * taper, rim or wall. */
+   * taper, bend, rim or wall. */
   SuperquadricCoefficients toCoefficients() const;
   /** \brief Inverse of toCoefficients(); \a coefficients must hold eleven numbers. */
   static Superquadric fromCoefficients(const SuperquadricCoefficients& coefficients);
@@ -205,6 +224,9 @@ struct PCL_SQ_EXPORTS Superquadric {
   static Superquadric fromCoefficients(const Eigen::VectorXf& coefficients);
   /** \brief From pcl::ModelCoefficients::values. */
   static Superquadric fromCoefficients(const std::vector<float>& coefficients);
+
+private:
+  Eigen::Vector3d bentHalfSizes() const;
 };
 
 /** \brief One line for people: centre [m], semi-axes [m], exponents and axes, in the

@@ -27,6 +27,7 @@ enum class ShapeClass {
   BOX,        ///< e1 = e2 = 0.2
   ELLIPSOID,  ///< e1 = e2 = 1
   TAPERED,    ///< one of the above whose section grows along z
+  BENT,       ///< a rod bent to an arc of a circle, e2 = 1: banana, handle
   VESSEL      ///< a tapered solid of revolution with a rim and a wall: bowl, cup, plate
 };
 
@@ -68,6 +69,8 @@ struct PCL_SQ_EXPORTS ViewFitOptions {
   bool all_points = false;
   /** \brief Whether TAPERED is among the families. */
   bool taper = true;
+  /** \brief Whether BENT is among the families. */
+  bool bend = true;
   /** \brief Whether VESSEL is among the families. */
   bool vessel = true;
   bool robust = true;       ///< some points may be outliers
@@ -86,8 +89,8 @@ struct ViewFit {
   std::vector<ShapeCandidate> candidates; ///< all families tried
   double noise = 0.0;                     ///< sigma used for the comparison [m]
 
-  /** \brief The best candidate with neither taper nor rim: where another search goes on
-   * from. */
+  /** \brief The best candidate with neither taper, bend nor rim: where another search
+   * goes on from. */
   const ShapeCandidate& straight() const;
 };
 

@@ -111,7 +111,8 @@ Superquadric makeSuperquadric(const Eigen::Vector3d& semi_axes,
                               const Eigen::Matrix3d& rotation,
                               const std::array<double, 2>& taper,
                               double rim,
-                              double wall) {
+                              double wall,
+                              const std::array<double, 2>& bend) {
   Superquadric s;
   s.semi_axes = semi_axes;
   s.epsilon1 = epsilon[0];
@@ -122,6 +123,8 @@ Superquadric makeSuperquadric(const Eigen::Vector3d& semi_axes,
   s.ky = taper[1];
   s.rim = rim;
   s.wall = wall;
+  s.bend = bend[0];
+  s.bend_angle = bend[1];
   std::string why;
   if (!s.isValid(&why))
     throw std::invalid_argument("this is no superquadric: " + why);
@@ -151,7 +154,9 @@ void addSuperquadric(py::module_& module) {
            py::arg("taper") = std::array<double, 2>{0.0, 0.0},
            py::arg("rim") = 1.0,
            py::arg("wall") = 0.0,
-           "Semi-axes [m], exponents, centre [m], axes as columns, taper, rim, wall.")
+           py::arg("bend") = std::array<double, 2>{0.0, 0.0},
+           "Semi-axes [m], exponents, centre [m], axes as columns, taper, rim, wall, "
+           "bend.")
       .def_property_readonly(
           "center", [](const S& s) { return s.center; }, "Centre [m].")
       .def_property_readonly(
@@ -169,6 +174,10 @@ void addSuperquadric(py::module_& module) {
       .def_readonly("rim", &S::rim, "Height of the rim over a3; 1: not cut.")
       .def_readonly(
           "wall", &S::wall, "Thickness of a hollow body's wall [m]; 0: solid.")
+      .def_property_readonly(
+          "bend",
+          [](const S& s) { return py::make_tuple(s.bend, s.bend_angle); },
+          "Curvature of the z axis [1/m] and its direction in the xy plane [rad].")
       .def_property_readonly("sides", &sidesOf, "Sides that a ruler measures [m].")
       .def_property_readonly("volume", &S::volume, "Filled up to the rim [m^3].")
       .def_property_readonly(
@@ -240,7 +249,8 @@ void addSuperquadric(py::module_& module) {
                                   s.rotation,
                                   std::array<double, 2>{s.kx, s.ky},
                                   s.rim,
-                                  s.wall);
+                                  s.wall,
+                                  std::array<double, 2>{s.bend, s.bend_angle});
           },
           [](const py::tuple& t) {
             return makeSuperquadric(t[0].cast<Eigen::Vector3d>(),
@@ -249,7 +259,8 @@ void addSuperquadric(py::module_& module) {
                                     t[3].cast<Eigen::Matrix3d>(),
                                     t[4].cast<std::array<double, 2>>(),
                                     t[5].cast<double>(),
-                                    t[6].cast<double>());
+                                    t[6].cast<double>(),
+                                    t[7].cast<std::array<double, 2>>());
           }))
       .def("__repr__", [](const S& s) { return "<" + textOf(s) + ">"; });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/collision_shapes.h"
 
-#include "geometry/open_body.h"
+#include "geometry/bend.h"
 #include "quality/convex_hull.h"
 
 #include "pcl_sq/sides.h"
@@ -155,6 +155,30 @@ std::vector<CollisionShape> hollowShapes(const Superquadric& s) {
   return shapes;
 }
 
+/** \brief A bent body stretch by stretch, so that its hole stays open. */
+std::vector<CollisionShape> bentShapes(const Superquadric& s) {
+  constexpr int RINGS = 4;
+  const int pieces = convexPieces(s);
+  std::vector<CollisionShape> shapes;
+  for (int i = 0; i < pieces; ++i) {
+    Points points;
+    for (int k = 0; k <= RINGS; ++k) {
+      const double height = -1.0 + 2.0 * (i + double(k) / RINGS) / pieces;
+      const Ring ring = {sectionAt(s, height), height * s.semi_axes.z()};
+      for (int sector = 0; sector < SECTORS; ++sector)
+        points.push_back(s.toWorld(
+            bent(s,
+                 ring.section.empty()
+                     ? Eigen::Vector3d(0.0, 0.0, ring.z)
+                     : onRing(ring, s.epsilon2, 2.0 * M_PI * sector / SECTORS))));
+    }
+    CollisionShape shape = meshShape(points);
+    if (!shape.mesh.triangles.empty())
+      shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
 } // namespace
 
 TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points) {
@@ -187,6 +211,8 @@ TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points) {
 
 std::vector<CollisionShape> collisionShapes(const Superquadric& part,
                                             double tolerance) {
+  if (part.isBent())
+    return bentShapes(part);
   CollisionShape primitive;
   if (findPrimitive(part, tolerance, primitive))
     return {primitive};

@@ -82,6 +82,7 @@ Json partJson(const Superquadric& part, std::size_t i, const Eigen::Vector3d& mi
           {"epsilon", {part.epsilon1, part.epsilon2}},
           {"taper", {part.kx, part.ky}},
           {"wall", part.wall},
+          {"bend", part.bend},
           {"grid", moved.json()},
           {"places", base64(places)},
           {"normals", base64(normals)},

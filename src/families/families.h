@@ -6,6 +6,14 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Twice the logarithm of the prior odds against a family. */
+inline double demandOf(ShapeClass shape) {
+  return shape == ShapeClass::TAPERED  ? TAPER
+         : shape == ShapeClass::BENT   ? BENT
+         : shape == ShapeClass::VESSEL ? VESSEL
+                                       : 0.0;
+}
+
 /** \brief The best tapered body, if the families' best ones show that a taper would
  * help: its share in what a Gauss-Newton step would gain (Rao's score test). */
 std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
@@ -16,6 +24,14 @@ std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
 void fitTaperAllPoints(const ViewProblem& problem,
                        double sigma,
                        ShapeCandidate& chosen);
+
+/** \brief The best bent rod, if no other family is near the points. */
+std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
+                                      double sigma,
+                                      const std::vector<ShapeCandidate>& candidates);
+
+/** \brief Last iterations of a bent rod with all points. */
+void fitBentAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);
 
 /** \brief The best open vessel, if no solid is near the points or the best one hides
  * some of them. \param[in,out] candidates all solids; those pay for what they hide */

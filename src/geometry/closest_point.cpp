@@ -4,11 +4,13 @@
 // stalls at an edge; a bracket does not.
 #include "pcl_sq/superquadric.h"
 
-#include "geometry/open_body.h"
+#include "geometry/bend.h"
 
 #include <boost/math/tools/minima.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace pcl_sq {
 
@@ -130,6 +132,25 @@ sideNormal(const Superquadric& s, const Eigen::Vector3d& at, double inset) {
   return normal.stableNormalized();
 }
 
+/** \brief The place of the surface of a body with neither bend nor rim. */
+Eigen::Vector3d nearestOnStraight(const Superquadric& s, const Eigen::Vector3d& local) {
+  const Eigen::Vector3d folded = local.cwiseAbs();
+  const double side = std::copysign(1.0, local.z());
+  Eigen::Vector3d closest = closestInHalf(s, folded, side, 0.0, {});
+  if (s.isTapered()) { // the larger half may be nearer though the point is not beside
+                       // it
+    const Eigen::Vector3d mirrored(folded.x(), folded.y(), -folded.z());
+    Eigen::Vector3d other = closestInHalf(s, mirrored, -side, 0.0, {});
+    other.z() = -other.z();
+    if ((other - folded).squaredNorm() < (closest - folded).squaredNorm())
+      closest = other;
+  }
+  for (int axis = 0; axis < 2; ++axis)
+    closest[axis] = std::copysign(closest[axis], local[axis]);
+  closest.z() *= side;
+  return closest;
+}
+
 } // namespace
 
 namespace detail {
@@ -183,25 +204,74 @@ SurfacePlace nearestPlace(const Superquadric& s, const Eigen::Vector3d& local) {
   return nearest;
 }
 
+Eigen::Vector3d nearestOnBent(const Superquadric& s, const Eigen::Vector3d& local) {
+  // the octants of the straight body: a grid tells in which the place may be
+  constexpr int GRID = 12;
+  constexpr double NEARLY = 1.1; ///< of the least distance
+  const auto at = [&](int octant, double t, double u) -> Eigen::Vector3d {
+    const Eigen::Vector3d sign(
+        octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+    const Eigen::Vector2d profile = onUnitSuperellipse(t, s.epsilon1),
+                          section = onUnitSuperellipse(u, s.epsilon2);
+    return deformed(
+        s,
+        Eigen::Vector3d(profile[0] * section[0], profile[0] * section[1], profile[1])
+            .cwiseProduct(s.semi_axes)
+            .cwiseProduct(sign));
+  };
+  const auto distance = [&](int octant, double t, double u) {
+    return (at(octant, t, u) - local).squaredNorm();
+  };
+  struct Cell {
+    int octant;
+    double t, square;
+  };
+  std::vector<Cell> cells;
+  for (int octant = 0; octant < 8; ++octant) {
+    Cell best{octant, 0.0, std::numeric_limits<double>::infinity()};
+    for (int i = 0; i <= GRID; ++i)
+      for (int k = 0; k <= GRID; ++k) {
+        const double square = distance(octant, double(i) / GRID, double(k) / GRID);
+        if (square < best.square)
+          best = {octant, double(i) / GRID, square};
+      }
+    cells.push_back(best);
+  }
+  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+    return a.square < b.square;
+  });
+  Eigen::Vector3d nearest = local;
+  double least = std::numeric_limits<double>::infinity();
+  const double spacing = 2.0 * s.semi_axes.maxCoeff() / GRID;
+  for (const Cell& c : cells) {
+    if (std::sqrt(c.square) > NEARLY * std::sqrt(cells.front().square) + spacing)
+      break;
+    const auto onSection = [&](double t) {
+      return minimumOnUnitInterval([&](double u) { return distance(c.octant, t, u); });
+    };
+    const double t = boost::math::tools::brent_find_minima(
+                         [&](double v) { return onSection(v).second; },
+                         std::max(c.t - 1.0 / GRID, 0.0),
+                         std::min(c.t + 1.0 / GRID, 1.0),
+                         PRECISION_BITS)
+                         .first;
+    const Eigen::Vector3d place = at(c.octant, t, onSection(t).first);
+    if ((place - local).squaredNorm() < least) {
+      least = (place - local).squaredNorm();
+      nearest = place;
+    }
+  }
+  return nearest;
+}
+
 } // namespace detail
 
 Eigen::Vector3d Superquadric::closestPoint(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d local = toLocal(point);
   if (isCut())
     return toWorld(detail::nearestPlace(*this, local).at);
-  const Eigen::Vector3d folded = local.cwiseAbs();
-  const double side = std::copysign(1.0, local.z());
-  Eigen::Vector3d closest = closestInHalf(*this, folded, side, 0.0, {});
-  if (isTapered()) { // the larger half may be nearer though the point is not beside it
-    const Eigen::Vector3d mirrored(folded.x(), folded.y(), -folded.z());
-    Eigen::Vector3d other = closestInHalf(*this, mirrored, -side, 0.0, {});
-    other.z() = -other.z();
-    if ((other - folded).squaredNorm() < (closest - folded).squaredNorm())
-      closest = other;
-  }
-  for (int axis = 0; axis < 2; ++axis)
-    closest[axis] = std::copysign(closest[axis], local[axis]);
-  closest.z() *= side;
+  const Eigen::Vector3d closest =
+      isBent() ? detail::nearestOnBent(*this, local) : nearestOnStraight(*this, local);
   // near the surface the radial projection may be nearer than the brackets' resolution,
   // and on a flat face, whose minimum may be narrower than a bracket, the tangent plane
   // tells where the foot is

@@ -89,12 +89,14 @@ void Meridian::addCurve(double inset, double low, double high) {
           toSegment(at((1.0 - share) * c.places[i] + share * c.places[i + 1], inset),
                     c.points[i],
                     c.points[i + 1]));
+    c.miss = std::max(c.miss, miss);
     c.straight.push_back(miss < STRAIGHT * s_.semi_axes.maxCoeff());
   }
   curves_.push_back(std::move(c));
 }
 
-double Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p) const {
+double
+Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) const {
   double nearest = 1e300;
   std::size_t chord = 0;
   for (std::size_t i = 0; i < STEPS; ++i) {
@@ -104,7 +106,7 @@ double Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p) const {
       chord = i;
     }
   }
-  if (c.straight[chord])
+  if (c.straight[chord] || nearest - 2.0 * c.miss > enough)
     return nearest;
   constexpr double GOLDEN = 0.6180339887498949;
   const auto square = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
@@ -137,7 +139,7 @@ double Meridian::distance(double rho, double z) const {
   const Eigen::Vector2d p(rho, z);
   double nearest = 1e300;
   for (const Curve& c : curves_)
-    nearest = std::min(nearest, distanceTo(c, p));
+    nearest = std::min(nearest, distanceTo(c, p, nearest));
   const Eigen::Vector2d edge = curves_[0].points.back();
   const Eigen::Vector2d inner =
       s_.isHollow() ? curves_[1].points.back() : Eigen::Vector2d(0.0, edge.y());

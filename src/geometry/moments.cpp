@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volume, centre of gravity and inertia of a superquadric, with or without a taper and
-// a rim.
-#include "geometry/open_body.h"
+// Volume, centre of gravity and inertia of a superquadric, with or without a taper, a
+// bend and a rim.
+#include "geometry/bend.h"
 
 #include <cmath>
 
@@ -53,6 +53,10 @@ Eigen::Vector3d Superquadric::centerOfGravity() const {
         detail::filledMoments(*this) - detail::hollowMoments(*this);
     return toWorld({0.0, 0.0, m.z / m.volume});
   }
+  if (isBent()) {
+    const detail::BentMoments m = detail::bentMoments(*this);
+    return toWorld(m.first / m.volume);
+  }
   if (!isTapered())
     return center;
   const double along = (kx + ky) * detail::evenMoment(*this, 0, 0, 2) / semi_axes.z();
@@ -63,6 +67,11 @@ Eigen::Matrix3d Superquadric::inertia() const {
   const double e1 = epsilon1, e2 = epsilon2;
   const Eigen::Vector3d a2 = semi_axes.cwiseAbs2();
   Eigen::Vector3d moments;
+  if (isBent()) {
+    const Eigen::Matrix3d second = detail::bentMoments(*this).second;
+    return rotation * (second.trace() * Eigen::Matrix3d::Identity() - second) *
+           rotation.transpose();
+  }
   if (isCut()) {
     const detail::AxialMoments m =
         detail::filledMoments(*this) - detail::hollowMoments(*this);

@@ -26,6 +26,7 @@ struct Normalisation {
     s.rotation = axes.transpose() * s.rotation;
     s.semi_axes /= scale;
     s.wall /= scale;
+    s.bend *= scale;
     return s;
   }
   Superquadric toCloud(Superquadric s) const {
@@ -33,6 +34,7 @@ struct Normalisation {
     s.rotation = Eigen::Quaterniond(axes * s.rotation).normalized().toRotationMatrix();
     s.semi_axes *= scale;
     s.wall *= scale;
+    s.bend /= scale;
     return s;
   }
 };

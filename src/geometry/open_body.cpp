@@ -10,19 +10,22 @@ namespace pcl_sq {
 
 namespace detail {
 
-namespace {
+double latitudeOf(const Superquadric& s, double height) {
+  const double sine = std::pow(std::min(std::abs(height), 1.0), 1.0 / s.epsilon1);
+  return std::copysign(std::asin(sine), height);
+}
 
-/** \brief Integrals between two heights over a3 of the body shrunk by an inset: Gauss's
- * rule between heights of equal steps of the latitude, which are dense at the poles,
- * where the section's size is steep. */
-AxialMoments
-momentsBetween(const Superquadric& s, double low, double high, double inset) {
+void forEachSection(
+    const Superquadric& s,
+    double low,
+    double high,
+    double inset,
+    const std::function<void(double, double, const SectionMoments&)>& use) {
   // area of a superellipse of unit semi-axes, and the integral of x^2 over it
   const double e2 = s.epsilon2;
   const double area = e2 * std::pow(std::tgamma(0.5 * e2), 2) / std::tgamma(e2);
   const double second = e2 * e2 * std::tgamma(1.5 * e2) * std::tgamma(0.5 * e2) /
                         std::tgamma(2.0 * e2 + 1.0);
-  AxialMoments m;
   const double a3 = s.semi_axes.z();
   const auto addPiece = [&](double from, double to) {
     constexpr int PIECES = 24;
@@ -41,12 +44,11 @@ momentsBetween(const Superquadric& s, double low, double high, double inset) {
       const auto add = [&](double x, double weight) {
         const double z = 0.5 * (z0 + z1) + 0.5 * (z1 - z0) * x;
         const Section c = sectionAt(s, z, inset);
-        const double dz = weight * 0.5 * (z1 - z0) * a3;
-        m.volume += dz * area * c.a * c.b;
-        m.z += dz * area * c.a * c.b * z * a3;
-        m.zz += dz * area * c.a * c.b * z * z * a3 * a3;
-        m.xx += dz * second * c.a * c.a * c.a * c.b;
-        m.yy += dz * second * c.a * c.b * c.b * c.b;
+        use(z * a3,
+            weight * 0.5 * (z1 - z0) * a3,
+            {area * c.a * c.b,
+             second * c.a * c.a * c.a * c.b,
+             second * c.a * c.b * c.b * c.b});
       };
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         add(nodes[k], weights[k]);
@@ -59,14 +61,6 @@ momentsBetween(const Superquadric& s, double low, double high, double inset) {
     addPiece(low, std::min(high, 0.0));
   if (high > 0.0)
     addPiece(std::max(low, 0.0), high);
-  return m;
-}
-
-} // namespace
-
-double latitudeOf(const Superquadric& s, double height) {
-  const double sine = std::pow(std::min(std::abs(height), 1.0), 1.0 / s.epsilon1);
-  return std::copysign(std::asin(sine), height);
 }
 
 Section sectionAt(const Superquadric& s, double height, double inset) {
@@ -127,6 +121,24 @@ Eigen::Vector3d onRing(const Ring& ring, double epsilon2, double angle) {
       std::pow(1.0 + std::pow(smaller / larger, 2.0 / epsilon2), 0.5 * epsilon2);
   return {ring.section.a * x / norm, ring.section.b * y / norm, ring.z};
 }
+
+namespace {
+
+AxialMoments
+momentsBetween(const Superquadric& s, double low, double high, double inset) {
+  AxialMoments m;
+  const auto add = [&m](double z, double dz, const SectionMoments& c) {
+    m.volume += dz * c.area;
+    m.z += dz * c.area * z;
+    m.zz += dz * c.area * z * z;
+    m.xx += dz * c.xx;
+    m.yy += dz * c.yy;
+  };
+  forEachSection(s, low, high, inset, add);
+  return m;
+}
+
+} // namespace
 
 AxialMoments filledMoments(const Superquadric& s) {
   return momentsBetween(s, -1.0, s.rimHeight(), 0.0);

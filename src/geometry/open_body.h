@@ -5,6 +5,7 @@
 
 #include "geometry/taper.h"
 
+#include <functional>
 #include <vector>
 
 namespace pcl_sq::detail {
@@ -60,10 +61,12 @@ private:
     std::vector<double> places;          ///< s
     std::vector<Eigen::Vector2d> points; ///< rho, z
     std::vector<bool> straight;          ///< whether the chord is as good as the curve
+    double miss = 0.0;                   ///< by how much any chord misses the curve
   };
   Eigen::Vector2d at(double s, double inset) const;
   void addCurve(double inset, double low, double high);
-  double distanceTo(const Curve& curve, const Eigen::Vector2d& p) const;
+  /** \brief Distance to a curve, or more than \a enough where it is sure to be. */
+  double distanceTo(const Curve& curve, const Eigen::Vector2d& p, double enough) const;
 
   const Superquadric& s_;
   Eigen::Vector2d direction_;
@@ -103,6 +106,22 @@ void openResiduals(const Superquadric& s,
                    const UnitPoints& points,
                    kernels::Residual residual,
                    float* out);
+
+/** \brief Integrals of 1, x^2 and y^2 over a section. */
+struct SectionMoments {
+  double area, xx, yy;
+};
+
+/** \brief Calls \a use with z, dz [m] and the section's moments, so that sums are
+ * integrals over the body between two heights over a3, shrunk by an inset: Gauss's rule
+ * between heights of equal steps of the latitude, which are dense at the poles, where
+ * the section's size is steep. */
+void forEachSection(
+    const Superquadric& s,
+    double low,
+    double high,
+    double inset,
+    const std::function<void(double, double, const SectionMoments&)>& use);
 
 /** \brief Integrals of 1, z, x^2, y^2 and z^2 over a body in its own frame. */
 struct AxialMoments {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/superquadric.h"
 
-#include "geometry/open_body.h"
+#include "geometry/bend.h"
 
 #include <limits>
 
@@ -78,6 +78,8 @@ bool Superquadric::isValid(std::string* why) const {
     if (detail::sectionAt(*this, rimHeight(), wall).empty())
       return fail("a wall is thicker than half the body's width at its rim");
   }
+  if (const char* bent = detail::invalidBend(*this))
+    return fail(bent);
   const Eigen::Matrix3d gram = rotation.transpose() * rotation;
   if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-6 ||
       rotation.determinant() <= 0.0)
@@ -138,7 +140,7 @@ Eigen::Vector3d Superquadric::radialProjection(const Eigen::Vector3d& point) con
   }
   const Place place = detail::placeOf(*this, local);
   const Eigen::Vector3d straight = place.straight * std::exp(-place.gauge.value);
-  return toWorld(straight.cwiseProduct(detail::growth(*this, straight.z())));
+  return toWorld(detail::deformed(*this, straight));
 }
 
 double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
@@ -148,7 +150,7 @@ double Superquadric::radialDistance(const Eigen::Vector3d& point) const {
   if (local.isZero(0.0))
     return -semi_axes.minCoeff();
   const Place place = detail::placeOf(*this, local);
-  if (!isTapered())
+  if (!isDeformed())
     return -local.norm() * std::expm1(-place.gauge.value); // |y| (1 - 1/G)
   const double distance = (local - detail::radiallyProjected(*this, place).at).norm();
   return std::copysign(distance, place.gauge.value);
@@ -168,7 +170,7 @@ double Superquadric::firstOrderDistance(const Eigen::Vector3d& point) const {
 double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
   if (isCut())
     return detail::meridianDistance(*this, toLocal(point));
-  if (isTapered())
+  if (isDeformed())
     return detail::footPointRow(*this, point).value;
   const Eigen::Vector3d local = toLocal(point);
   const double radial = radialDistance(point);
@@ -210,14 +212,14 @@ Eigen::Vector3d Superquadric::normal(const Eigen::Vector3d& point) const {
 double Superquadric::support(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
   if (!isPlain())
-    return detail::taperedSupport(*this, u);
+    return detail::slicedSupport(*this, u);
   return u.isZero(0.0) ? 0.0 : std::exp(logSupport(*this, u).value);
 }
 
 Eigen::Vector3d Superquadric::supportPoint(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d u = rotation.transpose() * direction;
   if (!isPlain())
-    return toWorld(detail::taperedSupportPoint(*this, u));
+    return toWorld(detail::slicedSupportPoint(*this, u));
   return toWorld(contactPoint(logSupport(*this, u), u));
 }
 

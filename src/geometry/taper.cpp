@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/open_body.h"
+#include "geometry/bend.h"
 
 namespace pcl_sq {
 
@@ -17,7 +17,7 @@ derivatives(const Superquadric& s, const Place& p, const Eigen::Vector3d& gradie
   const double share_x = p.gauge.outer_h * p.gauge.inner_x;
   const double share_y = p.gauge.outer_h * p.gauge.inner_y;
   const Eigen::Vector3d& f = p.growth;
-  const double height = p.at.z() / s.semi_axes.z();
+  const double height = p.unbent.z() / s.semi_axes.z();
   Vector13 d;
   d.head<3>() = -gradient;
   d.segment<3>(3) = gradient.cross(p.at);
@@ -40,7 +40,7 @@ Place footOf(const Superquadric& s, const Eigen::Vector3d& local, double& distan
   const Place first = radiallyProjected(s, place);
   const Eigen::Vector3d normal = logGradient(s, first).normalized();
   const Eigen::Vector3d on_plane = local - normal.dot(local - first.at) * normal;
-  const Place second = radiallyProjected(s, placeOf(s, on_plane));
+  Place second = radiallyProjected(s, placeOf(s, on_plane));
   distance = std::min((local - second.at).norm(), (local - first.at).norm());
   if (!(place.gauge.value > 0.0))
     distance = -distance;
@@ -52,23 +52,31 @@ Place footOf(const Superquadric& s, const Eigen::Vector3d& local, double& distan
 Place placeOf(const Superquadric& s, const Eigen::Vector3d& local) {
   Place p;
   p.at = local;
-  p.growth = growth(s, local.z());
-  p.straight = local.cwiseQuotient(p.growth);
+  p.unbent = unbent(s, local);
+  p.growth = growth(s, p.unbent.z());
+  p.straight = p.unbent.cwiseQuotient(p.growth);
   p.gauge = gaugeAt(s, p.straight);
   return p;
 }
 
 Eigen::Vector3d logGradient(const Superquadric& s, const Place& p) {
   Eigen::Vector3d g = logGaugeGradient(p.gauge, p.straight);
+  const auto turned = [&](const Eigen::Vector3d& unbent_gradient) -> Eigen::Vector3d {
+    if (!s.isBent())
+      return unbent_gradient;
+    Eigen::Vector3d across = unbent_gradient; // fibres are longer or shorter
+    across.z() /= std::max(fibre(s, p.unbent), 1e-9);
+    return bentFrame(s, p.unbent.z()).axes * across;
+  };
   if (!s.isTapered())
-    return g;
+    return turned(g);
   const double share_x = p.gauge.outer_h * p.gauge.inner_x;
   const double share_y = p.gauge.outer_h * p.gauge.inner_y;
   const double a3 = s.semi_axes.z();
   g.x() /= p.growth.x();
   g.y() /= p.growth.y();
   g.z() -= share_x * s.kx / (a3 * p.growth.x()) + share_y * s.ky / (a3 * p.growth.y());
-  return g;
+  return turned(g);
 }
 
 Place radiallyProjected(const Superquadric& s, const Place& p) {
@@ -84,8 +92,26 @@ Place radiallyProjected(const Superquadric& s, const Place& p) {
   }
   q.gauge.value = 0.0;
   q.growth = growth(s, q.straight.z());
-  q.at = q.straight.cwiseProduct(q.growth);
+  q.unbent = q.straight.cwiseProduct(q.growth);
+  q.at = bent(s, q.unbent);
   return q;
+}
+
+PCL_SQ_EXPORTS Eigen::Vector3d deformed(const Superquadric& s, // pictures need it
+                                        const Eigen::Vector3d& straight) {
+  return bent(s, straight.cwiseProduct(growth(s, straight.z())));
+}
+
+PCL_SQ_EXPORTS Eigen::Vector3d deformedAreaVector(const Superquadric& s,
+                                                  const Eigen::Vector3d& straight,
+                                                  const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d upright = taperedAreaVector(s, straight, normal);
+  if (!s.isBent())
+    return upright;
+  // cofactors of the bend's derivative: a turn, and fibres that grow
+  const double longer = fibre(s, straight.cwiseProduct(growth(s, straight.z())));
+  return bentFrame(s, straight.z()).axes *
+         Eigen::Vector3d(longer * upright.x(), longer * upright.y(), upright.z());
 }
 
 BodyRow logGaugeRow(const Superquadric& s, const Eigen::Vector3d& point) {
@@ -93,9 +119,12 @@ BodyRow logGaugeRow(const Superquadric& s, const Eigen::Vector3d& point) {
   return {p.gauge.value, derivatives(s, p, logGradient(s, p))};
 }
 
-BodyRow footPointRow(const Superquadric& s, const Eigen::Vector3d& point) {
+BodyRow
+footPointRow(const Superquadric& s, const Eigen::Vector3d& point, Place* place) {
   BodyRow row;
   const Place foot = footOf(s, s.toLocal(point), row.value);
+  if (place)
+    *place = foot;
   const Eigen::Vector3d g = logGradient(s, foot);
   row.derivatives = derivatives(s, foot, g) / std::max(g.norm(), 1e-300);
   return row;
@@ -137,14 +166,17 @@ void residualsOf(const Superquadric& s,
 
 } // namespace detail
 
-Eigen::Vector3d Superquadric::tapered(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d local = toLocal(point);
-  return toWorld(local.cwiseProduct(detail::growth(*this, local.z())));
+Eigen::Vector3d Superquadric::deformed(const Eigen::Vector3d& point) const {
+  return toWorld(detail::deformed(*this, toLocal(point)));
 }
 
-Eigen::Vector3d Superquadric::untapered(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d local = toLocal(point);
-  return toWorld(local.cwiseQuotient(detail::growth(*this, local.z())));
+Eigen::Vector3d Superquadric::straightened(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d unbent = detail::unbent(*this, toLocal(point));
+  return toWorld(unbent.cwiseQuotient(detail::growth(*this, unbent.z())));
+}
+
+Eigen::Vector3d Superquadric::bentHalfSizes() const {
+  return detail::bentHalfSizes(*this);
 }
 
 } // namespace pcl_sq

@@ -24,18 +24,29 @@ inline Eigen::Vector3d growth(const Superquadric& s, double z) {
 /** \brief A place in the own frame, with the gauge there. */
 struct Place {
   Eigen::Vector3d at;       ///< in the own frame
-  Eigen::Vector3d straight; ///< the same before tapering
+  Eigen::Vector3d unbent;   ///< the same before bending
+  Eigen::Vector3d straight; ///< and before tapering
   Eigen::Vector3d growth;   ///< of the section at its height
   LogGauge gauge;           ///< of the straight body at the straight place
 };
 
 Place placeOf(const Superquadric& s, const Eigen::Vector3d& local);
 
-/** \brief Gradient of ln G in the own frame, by the chain rule through the taper. */
+/** \brief Gradient of ln G in the own frame, by the chain rule through taper and bend.
+ */
 Eigen::Vector3d logGradient(const Superquadric& s, const Place& place);
 
-/** \brief The radial projection before tapering, tapered: on the surface. */
+/** \brief The radial projection of the straight body, deformed: on the surface. */
 Place radiallyProjected(const Superquadric& s, const Place& place);
+
+/** \brief Where taper and bend take a place of the straight body; own frame. */
+Eigen::Vector3d deformed(const Superquadric& s, const Eigen::Vector3d& straight);
+
+/** \brief Where taper and bend take the area vector of a small piece of the straight
+ * body's surface. \param[in] straight place on it; own frame */
+Eigen::Vector3d deformedAreaVector(const Superquadric& s,
+                                   const Eigen::Vector3d& straight,
+                                   const Eigen::Vector3d& normal);
 
 /** \brief Where tapering takes the area vector of a small piece of the straight body's
  * surface: it is transformed by the cofactors of the taper's derivative. \param[in]
@@ -64,20 +75,24 @@ BodyRow logGaugeRow(const Superquadric& s, const Eigen::Vector3d& point);
 /** \brief Signed distance to the foot point on the tangent plane at the radial
  * projection. The derivatives are those of the gauge at the foot point, as in the
  * kernels: exact on the surface, and up to the curvature times the distance beside it.
- */
-BodyRow footPointRow(const Superquadric& s, const Eigen::Vector3d& point);
+ * \param[out] foot optional */
+BodyRow footPointRow(const Superquadric& s,
+                     const Eigen::Vector3d& point,
+                     Place* foot = nullptr);
 
 /** \brief n . center + h(n) for a unit vector n: the envelope theorem, at the point
- * that touches. */
-BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal);
-
-/** \brief h(n) of a tapered body, n in its own frame. */
-double taperedSupport(const Superquadric& s, const Eigen::Vector3d& local_direction);
-
-/** \brief Point of a tapered body that reaches farthest along n; both in its own frame.
+ * that touches. \param[out] unbent that point before bending, of a bent body; optional
  */
-Eigen::Vector3d taperedSupportPoint(const Superquadric& s,
-                                    const Eigen::Vector3d& local_direction);
+BodyRow supportRow(const Superquadric& s,
+                   const Eigen::Vector3d& normal,
+                   Eigen::Vector3d* unbent = nullptr);
+
+/** \brief h(n) of a body that is not plain, n in its own frame. */
+double slicedSupport(const Superquadric& s, const Eigen::Vector3d& local_direction);
+
+/** \brief Point of such a body that reaches farthest along n; both in its own frame. */
+Eigen::Vector3d slicedSupportPoint(const Superquadric& s,
+                                   const Eigen::Vector3d& local_direction);
 
 /** \brief Signed distance, or the gauge less one, as the kernels have it. */
 double residualAt(const Superquadric& s,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The support function of a superquadric with a taper or a rim (M3), by slices.
-#include "geometry/taper.h"
+// The support function of a superquadric with a taper, a rim or a bend (M3), by slices.
+#include "geometry/bend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,9 +121,41 @@ double logOrZero(double x) {
   return x > 0.0 ? std::log(x) : 0.0;
 }
 
+/** \brief The row of a bent body, n in its own frame, without the centre's part. */
+BodyRow bentSupportRow(const Superquadric& s,
+                       const Eigen::Vector3d& n,
+                       Eigen::Vector3d* unbent) {
+  const BentContact c = bentContact(s, n);
+  if (unbent)
+    *unbent = c.unbent;
+  const BentFrame frame = bentFrame(s, c.unbent.z());
+  // what the direction is before bending, times how far the body reaches there
+  Eigen::Vector3d along = frame.axes.transpose() * n;
+  along.z() *= fibre(s, c.unbent);
+  along = along.cwiseProduct(c.unbent).eval();
+  const double height = c.unbent.z() / s.semi_axes.z();
+  const double log_sine = logOrZero(std::abs(c.sine));
+  const double fx = 1.0 + s.kx * height, fy = 1.0 + s.ky * height;
+  const double growth = along.x() * s.kx / fx + along.y() * s.ky / fy;
+  BodyRow row;
+  row.value = c.reach;
+  row.derivatives.head<3>() = n;
+  row.derivatives.segment<3>(3) = c.at.cross(n);
+  row.derivatives.segment<3>(6) = along;
+  row.derivatives[9] = (along.z() + growth * height) * log_sine +
+                       (along.x() + along.y()) * logOrZero(c.cosine);
+  row.derivatives[10] =
+      0.5 * (along.x() * logOrZero(c.shares.x()) + along.y() * logOrZero(c.shares.y()));
+  row.derivatives[11] = along.x() * height / fx;
+  row.derivatives[12] = along.y() * height / fy;
+  return row;
+}
+
 } // namespace
 
-BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal) {
+BodyRow supportRow(const Superquadric& s,
+                   const Eigen::Vector3d& normal,
+                   Eigen::Vector3d* unbent) {
   const Eigen::Vector3d n = s.rotation.transpose() * normal;
   BodyRow row;
   if (s.isPlain()) { // in closed form
@@ -133,6 +165,11 @@ BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal) {
     const double height = p.z() / s.semi_axes.z();
     row.derivatives[11] = n.x() * p.x() * height;
     row.derivatives[12] = n.y() * p.y() * height;
+    return row;
+  }
+  if (s.isBent()) {
+    row = bentSupportRow(s, n, unbent);
+    row.value += normal.dot(s.center);
     return row;
   }
   const Slices slices(s, n);
@@ -156,12 +193,14 @@ BodyRow supportRow(const Superquadric& s, const Eigen::Vector3d& normal) {
   return row;
 }
 
-double taperedSupport(const Superquadric& s, const Eigen::Vector3d& local) {
-  return Slices(s, local).farthest().reach;
+double slicedSupport(const Superquadric& s, const Eigen::Vector3d& local) {
+  return s.isBent() ? bentContact(s, local).reach : Slices(s, local).farthest().reach;
 }
 
-Eigen::Vector3d taperedSupportPoint(const Superquadric& s,
-                                    const Eigen::Vector3d& local) {
+Eigen::Vector3d slicedSupportPoint(const Superquadric& s,
+                                   const Eigen::Vector3d& local) {
+  if (s.isBent())
+    return bentContact(s, local).at;
   const Slices slices(s, local);
   return slices.touching(slices.farthest());
 }

@@ -33,7 +33,8 @@ double largestRadius(const MultiSuperquadric& model, const Eigen::Vector3d& from
   double largest = 0.0;
   for (const Superquadric& part : model.parts)
     for (int i = 0; i < 27; ++i) { // axes, edges and corners of a cube
-      const Eigen::Vector3d start(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const Eigen::Vector3d start =
+          Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
       if (i != 13)
         largest = std::max(
             largest,

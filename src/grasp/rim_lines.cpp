@@ -11,9 +11,10 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int PLACES = 36; ///< around the rim
-/** \brief Of the contacts below the rim, over the largest shift that a grasp must stand
- * (GraspScores::robustness). */
-constexpr double DEPTH = 1.25;
+/** \brief Of the contacts below the rim, over the shifts that a grasp must stand
+ * (GraspScores::robustness looks at one and two of them): where the table leaves no
+ * room below the larger one, as under a plate's edge, the smaller one has to do. */
+constexpr double DEPTHS[] = {2.5, 1.25};
 constexpr int BISECTIONS = 40;
 /** \brief Of a closing line from the normal towards level, over the friction cone's
  * half angle: from the side of a sloping wall the table is in the way. */
@@ -59,11 +60,11 @@ bool ClosingLines::throughWall(const Superquadric& s,
 void ClosingLines::findOnRim(std::size_t part, std::vector<ClosingLine>& lines) const {
   const Superquadric& s = object_.parts[part];
   const double a3 = s.semi_axes.z(), rim = s.rimHeight() * a3;
-  const double depth =
-      std::min(DEPTH * 2.0 * options_.shift, 0.5 * (rim + a3 - s.wall));
+  const double deepest = 0.5 * (rim + a3 - s.wall);
   const double reach = s.halfSizes().head<2>().maxCoeff();
-  for (int i = 0; i < PLACES; ++i) {
+  for (int i = 0; i < PLACES * int(std::size(DEPTHS)); ++i) {
     const double angle = 2.0 * M_PI * i / PLACES;
+    const double depth = std::min(DEPTHS[i / PLACES] * options_.shift, deepest);
     const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
     double inside = 0.0, outside = 2.0 * reach; // of the body at that height
     const auto at = [&](double radius) {

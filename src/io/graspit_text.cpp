@@ -48,14 +48,16 @@ Primitive closestPrimitive(const Superquadric& part) {
   for (const Primitive& p : all)
     reach = reach.cwiseMax(p.half_sizes);
   std::vector<int> both(all.size()), either(all.size());
-  const int layers = !part.isPlain() ? 2 * CELLS : CELLS;
-  for (int i = 0; i < CELLS * CELLS * layers; ++i) {
-    const Eigen::Vector3d cell(i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS);
-    // all shapes are symmetric, but a tapered part, or one with a rim, across z: an
-    // eighth of the box is enough, or a quarter
+  // all shapes are symmetric, but a tapered part, or one with a rim, across z, and a
+  // bent one along its bend: an eighth of the box is enough, a quarter, or all of it
+  const int across = part.isBent() ? 2 * CELLS : CELLS;
+  const int layers = part.isPlain() ? CELLS : 2 * CELLS;
+  for (int i = 0; i < across * across * layers; ++i) {
+    const Eigen::Vector3d cell(i % across, i / across % across, i / across / across);
     Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
-    if (p.z() > reach.z())
-      p.z() = reach.z() - p.z();
+    for (int k = 0; k < 3; ++k)
+      if (p[k] > reach[k])
+        p[k] = reach[k] - p[k];
     const bool in_part = part.gauge(part.toWorld(p)) <= 1.0;
     for (std::size_t k = 0; k < all.size(); ++k) {
       both[k] += in_part && all[k].contains(p);

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* SCHEMA = "pcl_sq/model";
 constexpr int VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
-constexpr int OPEN_VERSION = 3; ///< rims, walls and tables
+constexpr int OPEN_VERSION = 3; ///< rims, walls, bends and tables
 
 Json vectorToJson(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
@@ -41,6 +41,8 @@ Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
                {"rotation", rotation}};
   if (s.isTapered())
     json["taper"] = {s.kx, s.ky};
+  if (s.isBent())
+    json["bend"] = {s.bend, s.bend_angle};
   if (s.rim < 1.0)
     json["rim"] = s.rim;
   if (s.isHollow())
@@ -125,9 +127,11 @@ Superquadric partFromJson(const Json& part, std::size_t index, int version) {
       s.rim = number(part, "rim");
     if (part.contains("wall"))
       s.wall = number(part, "wall");
-    if (part.contains("bend"))
-      throw Refusal{"superquadric " + std::to_string(index) +
-                    ": bent bodies (\"bend\") are not supported; leave them out"};
+    if (part.contains("bend")) {
+      const Eigen::Matrix<double, 2, 1> bend = numbers<2>(part.at("bend"), "bend");
+      s.bend = bend[0];
+      s.bend_angle = bend[1];
+    }
   }
   std::string why;
   if (!s.isValid(&why))
@@ -230,7 +234,7 @@ std::string toJson(const ModelFile& file, int indent) {
     return std::any_of(file.model.parts.begin(), file.model.parts.end(), of_kind);
   };
   const bool tapered = any([](const Superquadric& s) { return s.isTapered(); });
-  const bool open = any([](const Superquadric& s) { return s.isCut(); });
+  const bool open = any([](const Superquadric& s) { return s.isCut() || s.isBent(); });
   Json timings = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
     addFinite(timings, stage.c_str(), ms);

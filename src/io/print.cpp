@@ -30,6 +30,9 @@ std::ostream& operator<<(std::ostream& stream, const Superquadric& superquadric)
          << Triple{y} << ", z " << Triple{z};
   if (superquadric.isTapered())
     stream << ", taper " << superquadric.kx << " and " << superquadric.ky;
+  if (superquadric.isBent())
+    stream << ", bend " << superquadric.bend << " per m towards "
+           << superquadric.bend_angle << " rad";
   if (superquadric.isCut())
     stream << ", rim at " << superquadric.rim << " a3";
   if (superquadric.isHollow())

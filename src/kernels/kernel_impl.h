@@ -70,19 +70,19 @@ void planeSums(const Support& support, const Planes& planes, PlaneSumsOf<R>& out
     out.shared[i] = static_cast<double>(sum(shared[i]));
 }
 
-void straightPlanes(const Planes& planes, const Shape& shape, PlaneSums& out) {
+inline void straightPlanes(const Planes& planes, const Shape& shape, PlaneSums& out) {
   planeSums(spreadDual(shape), planes, out);
 }
 
-void taperedPlanes(const Planes& planes,
-                   const Shape& shape,
-                   PlaneSumsOf<TAPERED_ROWS>& out) {
+inline void taperedPlanes(const Planes& planes,
+                          const Shape& shape,
+                          PlaneSumsOf<TAPERED_ROWS>& out) {
   planeSums(TaperedSupport(shape), planes, out);
 }
 
-void taperedRows(const Planes& planes,
-                 const Shape& shape,
-                 float (&rows)[TAPERED_ROWS][BLOCK]) {
+inline void taperedRows(const Planes& planes,
+                        const Shape& shape,
+                        float (&rows)[TAPERED_ROWS][BLOCK]) {
   planeBlock(TaperedSupport(shape), planes, 0, planes.count, rows);
 }
 

@@ -193,10 +193,10 @@ void accumulate(const Points& points, const Shape& shape, const Mixture& m, Sums
     accumulate<ROWS, KIND, false, DERIVATIVES>(points, shape, m, out);
 }
 
-void taperedEquations(const Points& points,
-                      const Shape& shape,
-                      const Mixture& m,
-                      SumsOf<TAPERED_ROWS>& out) {
+inline void taperedEquations(const Points& points,
+                             const Shape& shape,
+                             const Mixture& m,
+                             SumsOf<TAPERED_ROWS>& out) {
   constexpr Residual FOOT = Residual::FOOT_POINT;
   if (m.outlier > 0.0F)
     accumulate<TAPERED_ROWS, FOOT, true, true>(points, shape, m, out);
@@ -238,7 +238,8 @@ void residuals(const Points& points, const Shape& shape, float* out) {
   }
 }
 
-void residuals(const Points& points, const Shape& shape, Residual kind, float* out) {
+inline void
+residuals(const Points& points, const Shape& shape, Residual kind, float* out) {
   switch (kind) {
   case Residual::RADIAL:
     return residuals<Residual::RADIAL>(points, shape, out);

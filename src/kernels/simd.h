@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr int LANES = PCL_SQ_LANES;
+inline constexpr int LANES = PCL_SQ_LANES;
 
 #if PCL_SQ_LANES == 1
 using Float = float;

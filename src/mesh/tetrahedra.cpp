@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/tetrahedra.h"
 
+#include "geometry/bend.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -24,7 +26,7 @@ constexpr double ALL_INSIDE = std::numeric_limits<double>::infinity();
 Tetrahedra::Tetrahedra(const MultiSuperquadric& model, double tolerance, double longest)
     : model_(model), straight_(model.parts), tolerance_(tolerance), longest_(longest) {
   for (Superquadric& part : straight_)
-    part.kx = part.ky = 0.0;
+    part.kx = part.ky = part.bend = 0.0;
   lists_.emplace_back();
   for (std::size_t k = 0; k < model.size(); ++k)
     lists_[0].push_back(k);
@@ -81,23 +83,46 @@ void Tetrahedra::addCubes(double side) {
         }
 }
 
+bool Tetrahedra::isBesideBend(const std::array<Index, 4>& vertices,
+                              const Superquadric& body) const {
+  // around the circle's centre and opposite of the body straightening tears apart what
+  // is close together, and no bisecting would end there
+  double farthest = 0.0;
+  double least = ALL_INSIDE, most = -ALL_INSIDE; // angles, 0 to 2 pi
+  for (const Index v : vertices) {
+    const Eigen::Vector3d unbent = detail::unbent(body, body.toLocal(position(v)));
+    farthest = std::max(farthest, fibre(body, unbent));
+    const double angle = std::abs(body.bend) * unbent.z();
+    const double around = angle < 0.0 ? angle + 2.0 * M_PI : angle;
+    least = std::min(least, around);
+    most = std::max(most, around);
+  }
+  const double end = std::abs(body.bend) * body.semi_axes.z();
+  // nearer to the centre than any of the body; a distance is largest at a corner
+  return farthest < 1.0 - Superquadric::MAX_FOLD ||
+         (least > end && most < 2.0 * M_PI - end && most - least < M_PI);
+}
+
 double Tetrahedra::error(const std::array<Index, 4>& vertices, std::size_t part) {
   const Superquadric& body = model_.parts[part];
+  if (body.isBent() && isBesideBend(vertices, body))
+    return NONE_HERE;
   double largest = -ALL_INSIDE, length = 0.0, bend = 0.0;
   std::array<double, 4> offsets{};
   std::array<Eigen::Vector3d, 4> straight;
   for (int i = 0; i < 4; ++i) {
     offsets[i] = offset(vertices[i], part);
     largest = std::max(largest, offsets[i]);
-    straight[i] = body.untapered(position(vertices[i]));
+    straight[i] = body.straightened(position(vertices[i]));
   }
   for (const auto& [a, b] : EDGES) {
     const Eigen::Vector3d &p = position(vertices[a]), &q = position(vertices[b]);
     length = std::max(length, (p - q).norm());
-    if (body.isTapered()) // how far the edge bends where the body is straight
+    if (body.isDeformed()) // how far the edge bends where the body is straight
       bend = std::max(
           bend,
-          (body.untapered(0.5 * (p + q)) - 0.5 * (straight[a] + straight[b])).norm());
+          (body.straightened(0.5 * (p + q)) - 0.5 * (straight[a] + straight[b]))
+              .norm());
   }
   // twice the bend of the edges covers that of the middle; no gauge is steeper than
   // that of an octahedron

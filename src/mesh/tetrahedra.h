@@ -61,6 +61,10 @@ private:
   Index addVertex(const Eigen::Vector3d& position);
   void addCubes(double side);
   void add(const std::array<Index, 4>& vertices, int bisected, std::size_t parts);
+  /** \brief Whether a tetrahedron is sure to lie beside a bent body, where it cannot be
+   * straightened. */
+  bool isBesideBend(const std::array<Index, 4>& vertices,
+                    const Superquadric& body) const;
   /** \brief Largest distance of a part's surface and its polygon in a tetrahedron [m],
    * negative if there is no surface, infinity if it lies inside of the part. */
   double error(const std::array<Index, 4>& vertices, std::size_t part);

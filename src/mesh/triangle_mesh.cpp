@@ -65,8 +65,8 @@ TriangleMesh meshSuperquadric(const Superquadric& superquadric, int divisions) {
         direction[k] = std::tan((2.0 * key[k] / n - 1.0) * M_PI / 4.0);
       Eigen::Vector3d v =
           superquadric.toWorld(direction.cwiseProduct(superquadric.semi_axes));
-      if (superquadric.isTapered()) // the projection takes it back first
-        v = superquadric.tapered(v);
+      if (superquadric.isDeformed()) // the projection takes it back first
+        v = superquadric.deformed(v);
       mesh.vertices.push_back(superquadric.radialProjection(v));
     }
     return it->second;
@@ -178,8 +178,8 @@ std::vector<Eigen::Vector3d> sampleEqualDistance(const Superquadric& superquadri
     }
   }
   for (Eigen::Vector3d& p : points) // the polyline's chords lie a little inside
-    p = superquadric.radialProjection(superquadric.isTapered() ? superquadric.tapered(p)
-                                                               : p);
+    p = superquadric.radialProjection(
+        superquadric.isDeformed() ? superquadric.deformed(p) : p);
   return points;
 }
 

@@ -26,7 +26,7 @@ bool deepInside(const CellMask& mask, int x, int y, int rim) {
 
 /** \brief Whether a pixel's depth is that of most of its neighbours in the mask. */
 bool agreesWithNeighbours(const DepthPatch& patch, int x, int y) {
-  constexpr std::size_t WINDOW = (2 * REACH + 1) * (2 * REACH + 1);
+  constexpr std::size_t WINDOW = std::size_t(2 * REACH + 1) * (2 * REACH + 1);
   std::array<double, WINDOW> depths, sorted, spare;
   const std::size_t count = patch.ownAround(x, y, REACH, depths.data());
   if (count < FEW)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an object is seen against: what hides it and what is seen past it.
+// What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
 #include "util/order_statistic.h"
@@ -20,7 +20,8 @@ constexpr int FREE_SPACE = 500; ///< about so many around the object are looked 
 } // namespace
 
 bool occluded(const Observation& o, const DepthPatch& patch, int x, int y) {
-  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
+  constexpr std::size_t WINDOW =
+      std::size_t(2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
   std::array<double, WINDOW> depths, spare;
   const auto median = [&](std::size_t count) {
     return orderStatistic(depths.data(), spare.data(), count, count / 2);

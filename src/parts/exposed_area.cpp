@@ -70,12 +70,11 @@ SurfaceCells surfaceCells(const Superquadric& part) {
       const Eigen::Vector3d sign(
           octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0);
       const Eigen::Vector3d straight = shrink * local.cwiseProduct(sign);
-      cells.middles.col(8 * c + octant) =
-          part.toWorld(straight.cwiseProduct(growth(part, straight.z())));
+      cells.middles.col(8 * c + octant) = part.toWorld(deformed(part, straight));
       cells.areas[8 * c + octant] =
-          part.isTapered()
+          part.isDeformed()
               ? area *
-                    taperedAreaVector(part, straight, normal.cwiseProduct(sign)).norm()
+                    deformedAreaVector(part, straight, normal.cwiseProduct(sign)).norm()
               : area;
     }
   }

@@ -96,9 +96,10 @@ std::vector<Piece> piecesAroundGap(const PieceContext& context, const Piece& who
   std::array<int, 4> beyond{};
   for (const Eigen::Vector2d& p : whole.pixels) {
     const Eigen::Vector2d q = box.axes.transpose() * p;
-    for (int k = 0; k < 2; ++k) {
-      beyond[std::size_t(2 * k)] += q[k] < box.low[k];
-      beyond[std::size_t(2 * k + 1)] += q[k] > box.high[k];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto axis = Eigen::Index(k);
+      beyond[2 * k] += q[axis] < box.low[axis];
+      beyond[2 * k + 1] += q[axis] > box.high[axis];
     }
   }
   const auto side =

@@ -155,6 +155,8 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
     parameters += part->piece.fit.chosen.parameters;
     if (part->trace->model.isTapered())
       demand += TAPER;
+    if (part->trace->model.isBent())
+      demand += BENT;
   }
   for (const Part* part : parts) {
     const BodyTrace& own = *part->trace;

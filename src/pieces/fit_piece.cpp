@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One piece, one superquadric: fitted, and scored so that pieces compare (M17).
+#include "families/families.h"
 #include "pieces/free_space.h"
 #include "pieces/piece_outline.h"
 #include "view_fit/search_view.h"
@@ -83,13 +84,10 @@ void fitPiece(const PieceContext& context,
       return assessed;
     assessed.covered = coveredFreeSpace(context, assessed.fit.fit.model).cost;
     assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
-    assessed.score = assessed.misfit -
-                     (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
-                     (assessed.fit.chosen.shape == ShapeClass::TAPERED  ? TAPER
-                      : assessed.fit.chosen.shape == ShapeClass::VESSEL ? VESSEL
-                                                                        : 0.0) +
-                     assessed.fit.chosen.parameters * price -
-                     0.5 * double(evidence.silhouette.size());
+    assessed.score =
+        assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
+        demandOf(assessed.fit.chosen.shape) + assessed.fit.chosen.parameters * price -
+        0.5 * double(evidence.silhouette.size());
     assessed.straight_misfit = assessed.misfit;
     assessed.straight_score = assessed.score;
     if (assessed.fit.chosen.shape == ShapeClass::TAPERED) {

@@ -60,7 +60,10 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
     limit.normal.normalize();
     limit.offset = limit.normal.dot(inside);
     limit.sigma = sigma / std::sqrt(o.free_weight);
-    const double z = limit.residual(body) / sigma;
+    // the hull of a bent body reaches on where the body does not
+    const double depth = body.isBent() ? std::max(-body.footPointDistance(inside), 0.0)
+                                       : limit.residual(body);
+    const double z = depth / sigma;
     covered.cost += o.free_weight * std::min(z * z, MAX_COST);
     covered.limits.push_back(limit);
   }

@@ -2,6 +2,7 @@
 // M22: a handle is what stands off a vessel.
 #include "pcl_sq/fit_superquadric.h"
 #include "pieces/body_outline.h"
+#include "pieces/handle.h"
 #include "pieces/piece.h"
 #include "sensor/local_quadric.h"
 
@@ -19,13 +20,9 @@ constexpr double SAME_SIDE = 0.5;      ///< cosine of 60 degrees around the axis
  * through, and what hugs the wall is the wall. */
 constexpr double STICKS_OUT = 0.2;
 constexpr double NARROW = 1.0; ///< how wide it is along the wall at most, over the same
-constexpr double STANDS_OFF = 4.0; ///< sigmas from the body
-constexpr double LINKED = 0.12;    ///< of neighbours, over the object's size
-constexpr double MAX_COST = 9.2;   ///< of a point, as an outlier
-constexpr double LARGER =
-    1.25;                      ///< a handle than the box of its points: one side is hid
-constexpr double STRAY = 0.05; ///< of a handle's points, at either end
-constexpr int PLANES = 48;     ///< of the body's outline
+constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
+constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
+constexpr int PLANES = 48;                ///< of the body's outline
 constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
 
 /** \brief The body, larger by a margin on all sides. */
@@ -61,14 +58,6 @@ std::vector<std::vector<int>> clustersOf(const Eigen::Matrix3Xd& points,
   return clusters;
 }
 
-Eigen::Vector3d meanOf(const Eigen::Matrix3Xd& points,
-                       const std::vector<int>& columns) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const int i : columns)
-    mean += points.col(i) / double(columns.size());
-  return mean;
-}
-
 /** \brief The points that stand off a body on one side: the largest cluster, and those
  * on the same side of the axis, the other arm of a handle. */
 std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
@@ -95,31 +84,6 @@ std::vector<int> oneSide(const Eigen::Matrix3Xd& points,
   }
   std::sort(side.begin(), side.end());
   return side;
-}
-
-/** \brief The ellipsoid around the points of a handle, an axis outwards from the body:
- * what is left to say where no fit comes near the points. */
-Superquadric aroundPoints(const Eigen::Matrix3Xd& points,
-                          const std::vector<int>& columns,
-                          const Superquadric& body) {
-  Superquadric s;
-  const Eigen::Vector3d up = body.rotation.col(2);
-  Eigen::Vector3d away = meanOf(points, columns) - body.center;
-  away = (away - up * up.dot(away)).normalized();
-  s.rotation << away, up.cross(away), up;
-  Eigen::Vector3d low, high;
-  const auto cut = std::ptrdiff_t(STRAY * double(columns.size()));
-  for (int k = 0; k < 3; ++k) {
-    std::vector<double> along;
-    for (const int i : columns)
-      along.push_back(s.rotation.col(k).dot(points.col(i)));
-    std::sort(along.begin(), along.end());
-    low[k] = *(along.begin() + cut);
-    high[k] = *(along.end() - 1 - cut);
-  }
-  s.center = s.rotation * (0.5 * (low + high));
-  s.semi_axes = 0.5 * (high - low).cwiseMax(0.05 * (high - low).maxCoeff());
-  return s;
 }
 
 /** \brief Columns of a piece's points that lie off its body, outside. */
@@ -217,43 +181,6 @@ double scatter(const PieceContext& context, const Piece& piece) {
       surfaceDistances(piece.fit.fit.model, gather(context, some)).cwiseAbs();
   std::vector<double> distances(all.data(), all.data() + all.size());
   return median(std::move(distances)) / MEDIAN_OF_NORMAL;
-}
-
-void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body) {
-  fitPiece(context, handle, Effort::FULL);
-  const Eigen::Matrix3Xd points = gather(context, handle.points);
-  const Superquadric& found = handle.fit.fit.model;
-  const Superquadric around =
-      aroundPoints(context.observed.points, handle.points, body);
-  const auto costOf = [&](const Superquadric& s) {
-    double cost = 0.0;
-    for (Eigen::Index i = 0; i < points.cols(); ++i)
-      cost += std::min(std::pow(s.footPointDistance(points.col(i)) / context.noise, 2),
-                       MAX_COST);
-    return cost / double(points.cols());
-  };
-  const Eigen::Vector3d size = found.boundingBox().sizes();
-  const bool near = handle.fit.fit.ok() &&
-                    (found.center - around.center).norm() <
-                        around.semi_axes.norm() + STANDS_OFF * context.noise &&
-                    size.norm() < 2.0 * LARGER * around.semi_axes.norm() &&
-                    costOf(found) < 0.5 * MAX_COST;
-  if (near)
-    return;
-  ShapeCandidate c;
-  c.shape = ShapeClass::ELLIPSOID;
-  c.model = around;
-  c.parameters = 9;
-  c.cost = costOf(around) * context.observed.effective_points * double(points.cols()) /
-           double(context.observed.points.cols());
-  handle.fit.candidates = {c};
-  handle.fit.chosen = c;
-  handle.fit.fit.model = around;
-  handle.fit.fit.points = handle.points.size();
-  handle.fit.fit.termination = Termination::COST_CHANGE_TOO_SMALL;
-  handle.misfit = c.cost;
-  handle.score =
-      c.cost + c.parameters * std::log(1.0 + context.observed.effective_points);
 }
 
 } // namespace pcl_sq::detail

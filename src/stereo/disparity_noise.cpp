@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <vector>
 
@@ -46,7 +47,7 @@ Matches matchAcross(const cv::Mat& left, const cv::Mat& right, const cv::Mat& d)
   cv::Mat l, r, u(d.size(), CV_32F), v(d.size(), CV_32F);
   left.convertTo(l, CV_32F);
   right.convertTo(r, CV_32F);
-  const cv::Mat known = d == d;
+  const cv::Mat known = d > -FLT_MAX; // false for NaN
   for (int y = 0; y < d.rows; ++y)
     for (int x = 0; x < d.cols; ++x) {
       const float at = d.at<float>(y, x);
@@ -114,7 +115,7 @@ Law fitLaw(const Matches& m) {
       if (const float o = m.across.at<float>(y, x); o == o)
         windows.emplace_back(m.open_across.at<float>(y, x), o);
   Law law;
-  if (windows.size() < CLASSES * FEWEST)
+  if (windows.size() < std::size_t(CLASSES) * FEWEST)
     return law;
   std::sort(windows.begin(), windows.end());
   std::vector<double> open, variance;

@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -69,7 +70,7 @@ cv::Mat toPixels(const cv::Mat& fixed, const DisparityRange& range) {
 cv::Mat filterWls(const cv::Mat& left,
                   const cv::Mat& right,
                   const cv::Mat& guide,
-                  cv::Ptr<cv::StereoMatcher> matcher,
+                  const cv::Ptr<cv::StereoMatcher>& matcher,
                   const StereoOptions& options,
                   cv::Mat& confidence) {
   // the filter makes its own left-right check and confidence from raw disparities
@@ -188,7 +189,7 @@ OrderVotes voteOnOrder(const cv::Mat& left, const cv::Mat& right) {
   const DisparityRange range = rangeOf(2.0, size.width / 3.0);
   const auto share = [&](const cv::Mat& l, const cv::Mat& r) {
     const cv::Mat d = matchPair(l, r, l, range, options);
-    return static_cast<double>(cv::countNonZero(d == d)) /
+    return static_cast<double>(cv::countNonZero(d > -FLT_MAX)) /
            static_cast<double>(d.total());
   };
   OrderVotes votes;

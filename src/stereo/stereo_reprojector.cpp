@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
 
+#include <cfloat>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -136,7 +137,7 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     // it
     disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
                     disparity < DISPARITY_STEP - intrinsics.doffs);
-    share = static_cast<double>(cv::countNonZero(disparity == disparity)) /
+    share = static_cast<double>(cv::countNonZero(disparity > -FLT_MAX)) /
             static_cast<double>(disparity.total());
   }
   // The vote costs two more matchings, so it is asked only when there is doubt: little

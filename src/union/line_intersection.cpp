@@ -4,6 +4,7 @@
 #include "geometry/gauge.h"
 
 #include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include <limits>
 
@@ -73,26 +74,38 @@ bool approach(const Superquadric& s,
   return true;
 }
 
-/** \brief Where a line comes deepest into a tapered body, between two places; the gauge
- * may have several minima along a line. */
+/** \brief At how many places a line is looked at: often enough to meet a thin bent rod.
+ */
+int samplesAlong(const Superquadric& s) {
+  constexpr double AT_LEAST = 12.0, AT_MOST = 96.0;
+  if (!s.isBent())
+    return int(AT_LEAST);
+  const double rod = s.semi_axes.minCoeff();
+  return int(std::clamp(2.0 * s.halfSizes().norm() / rod, AT_LEAST, AT_MOST));
+}
+
+/** \brief Where a line comes deepest into a tapered or bent body, between two places;
+ * the gauge may have several minima along a line. */
 double deepest(const Superquadric& s,
                const Eigen::Vector3d& origin,
                const Eigen::Vector3d& direction,
                const LineInterval& range,
                double& gauge) {
-  constexpr int SAMPLES = 12;
   constexpr int PRECISION_BITS = 26;
+  const int samples = samplesAlong(s);
   const auto at = [&](double t) { return s.gauge(origin + t * direction); };
-  const double step = (range.leave - range.enter) / SAMPLES;
+  const double step = (range.leave - range.enter) / samples;
   double best = range.enter;
   gauge = at(best);
-  for (int i = 1; i <= SAMPLES; ++i) {
+  for (int i = 1; i <= samples; ++i) {
     const double t = range.enter + i * step, value = at(t);
     if (value < gauge) {
       gauge = value;
       best = t;
     }
   }
+  if (gauge <= 1.0) // an inside place is all that is wanted
+    return best;
   const auto refined = boost::math::tools::brent_find_minima(
       at, best - step, best + step, PRECISION_BITS);
   if (refined.second < gauge) {
@@ -102,17 +115,37 @@ double deepest(const Superquadric& s,
   return best;
 }
 
-/** \brief The surface between a place inside of a tapered body and one outside. */
+/** \brief The surface between a place inside of a tapered or bent body and one
+ * outside: the first one, where a line leaves a bent body and enters it again. */
 double crossing(const Superquadric& s,
                 const Eigen::Vector3d& origin,
                 const Eigen::Vector3d& direction,
                 double inside,
                 double outside) {
-  for (int i = 0; i < 52; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (s.gauge(origin + middle * direction) <= 1.0 ? inside : outside) = middle;
+  if (s.isBent()) {
+    const int samples = samplesAlong(s);
+    const double end = outside, step = (end - inside) / samples;
+    for (int i = 1; i <= samples; ++i) {
+      outside = i < samples ? inside + step : end;
+      if (s.gauge(origin + outside * direction) > 1.0)
+        break;
+      inside = outside;
+    }
   }
-  return inside;
+  const auto beyond = [&](double t) { return s.gauge(origin + t * direction) - 1.0; };
+  const double first = beyond(inside), last = beyond(outside);
+  if (!(first < 0.0 && last > 0.0)) // grazed, or the box touches
+    return last > 0.0 ? inside : outside;
+  std::uintmax_t most = 60;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(beyond,
+                                        std::min(inside, outside),
+                                        std::max(inside, outside),
+                                        inside < outside ? first : last,
+                                        inside < outside ? last : first,
+                                        boost::math::tools::eps_tolerance<double>(),
+                                        most);
+  return inside < outside ? low : high;
 }
 
 } // namespace
@@ -134,7 +167,7 @@ bool intersectWhole(const Superquadric& s,
   LineInterval box;
   if (!clipToUnitCube(line, box))
     return false;
-  if (s.isTapered()) {
+  if (s.isDeformed()) {
     double gauge;
     const double inside = deepest(s, origin, direction, box, gauge);
     if (!(gauge <= 1.0))
@@ -189,10 +222,42 @@ bool intersectLine(const Superquadric& s,
   return true;
 }
 
+namespace {
+
+/** \brief The first of the places where a ray enters a bent body. */
+bool firstHitOfBent(const Superquadric& s,
+                    const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction,
+                    double& at) {
+  LineInterval box;
+  if (!intersectLineBox(s, origin, direction, box) || box.leave < 0.0)
+    return false;
+  const int samples = samplesAlong(s);
+  const double step = (box.leave - std::max(box.enter, 0.0)) / samples;
+  double outside = std::max(box.enter, 0.0);
+  for (int i = 0; i <= samples; ++i) {
+    const double t = std::max(box.enter, 0.0) + i * step;
+    if (s.gauge(origin + t * direction) <= 1.0) {
+      at = i > 0 ? crossing(s, origin, direction, t, outside) : t;
+      return true;
+    }
+    outside = t;
+  }
+  LineInterval grazing; // thinner than a step
+  if (!intersectLine(s, origin, direction, grazing) || grazing.enter < 0.0)
+    return false;
+  at = grazing.enter;
+  return true;
+}
+
+} // namespace
+
 bool firstHit(const Superquadric& s,
               const Eigen::Vector3d& origin,
               const Eigen::Vector3d& direction,
               double& at) {
+  if (s.isBent())
+    return firstHitOfBent(s, origin, direction, at);
   LineInterval filled;
   if (!intersectLine(s, origin, direction, filled) || filled.leave < 0.0)
     return false;

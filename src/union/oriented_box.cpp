@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/oriented_box.h"
 
+#include "geometry/bend.h"
 #include "union/simplex.h"
+
+#include <limits>
 
 namespace pcl_sq {
 
@@ -46,16 +49,20 @@ Eigen::Vector3d nearest(const OrientedBox& box, const Eigen::Vector3d& point) {
 /** \brief Gilbert-Johnson-Keerthi. \param[in] enough distance from which the pair
  * counts as apart: the search ends as soon as it is on one side of it (infinite: find
  * the distance itself) \return the distance, or a bound of it on the side of enough */
-double
-gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_distance) {
+template <typename Farthest>
+double gjk(const OrientedBox& box,
+           const Eigen::Vector3d& center,
+           const Farthest& farthest_of_body,
+           double enough,
+           bool find_distance) {
   detail::Simplex simplex;
-  Eigen::Vector3d v = box.center - s.center;
+  Eigen::Vector3d v = box.center - center;
   if (v.isZero(0.0))
     return 0.0;
   double lower = 0.0;
   for (int step = 0; step < MAX_STEPS; ++step) {
     const double length = v.norm();
-    const Eigen::Vector3d w = farthest(box, -v) - s.supportPoint(v);
+    const Eigen::Vector3d w = farthest(box, -v) - farthest_of_body(v);
     lower = std::max(lower, v.dot(w) / length);
     if (!find_distance && lower >= enough)
       return lower;
@@ -70,6 +77,37 @@ gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_dist
       return v.norm();
   }
   return v.norm();
+}
+
+/** \brief The same for a body as its convex hull, of a bent one stretch by stretch. */
+double
+gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_distance) {
+  if (!s.isBent())
+    return gjk(
+        box,
+        s.center,
+        [&](const Eigen::Vector3d& n) { return s.supportPoint(n); },
+        enough,
+        find_distance);
+  const int pieces = detail::convexPieces(s);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < pieces; ++i) {
+    const double low = -1.0 + 2.0 * i / pieces, high = -1.0 + 2.0 * (i + 1) / pieces;
+    const double middle = 0.5 * (low + high) * s.semi_axes.z();
+    const auto farthest_of_piece = [&](const Eigen::Vector3d& n) {
+      return s.toWorld(
+          detail::bentContact(s, s.rotation.transpose() * n, low, high).at);
+    };
+    least = std::min(least,
+                     gjk(box,
+                         s.toWorld(detail::bent(s, {0.0, 0.0, middle})),
+                         farthest_of_piece,
+                         enough,
+                         find_distance));
+    if (least <= 0.0 || (!find_distance && least < enough))
+      break;
+  }
+  return least;
 }
 
 /** \brief Whether all of a box that is below the rim of a hollow body lies in its

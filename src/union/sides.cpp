@@ -77,13 +77,16 @@ OrientedBox boxAround(const Superquadric& s) {
   box.center = s.center;
   box.rotation = s.rotation;
   box.half_sizes = s.semi_axes;
-  if (s.isCut()) {
-    const double low = -s.semi_axes.z(), high = s.support(s.rotation.col(2));
-    box.center += 0.5 * (low + high) * s.rotation.col(2);
-    box.half_sizes = {
-        s.support(s.rotation.col(0)), s.support(s.rotation.col(1)), 0.5 * (high - low)};
-  }
-  if (s.epsilon2 <= 1.0) // a rectangle with round corners fills its box best
+  if (s.isCut() || s.isBent())
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = s.rotation.col(k);
+      const double high = s.support(axis),
+                   low = s.isBent() || k == 2 ? -s.support(-axis) : -high;
+      box.center += 0.5 * (low + high) * axis;
+      box.half_sizes[k] = 0.5 * (high - low);
+    }
+  if (s.isBent() ||
+      s.epsilon2 <= 1.0) // a rectangle with round corners fills its box best
     return box;
   box = smallestAlong(
       [&s](const Eigen::Vector3d& n) { return n.dot(s.center) + s.support(n); },

@@ -66,7 +66,14 @@ SurfaceStatistics surfaceStatistics(const MultiSuperquadric& model,
           nearest[i] = relative[i];
           nearest_factor[i] = factors[k];
         }
-      residualsOf(bodies[k], chunk, kernels::Residual::FOOT_POINT, metric.data());
+      if (bodies[k].isCut()) { // a distance already, see openResiduals()
+        const float size = static_cast<float>(std::cbrt(bodies[k].semi_axes.prod()));
+        std::transform(relative.begin(),
+                       relative.end(),
+                       metric.begin(),
+                       [size](float r) { return r * size; });
+      } else
+        residualsOf(bodies[k], chunk, kernels::Residual::FOOT_POINT, metric.data());
       keepNearest(metric, nearest_metric);
     }
     for (std::size_t i = 0; i < n; ++i) {

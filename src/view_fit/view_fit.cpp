@@ -108,6 +108,9 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     if (const auto vessel =
             fitVessel(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*vessel);
+  if (options.bend && options.choose_shape)
+    if (const auto bent = fitBent(problem, general.front().sigma, result.candidates))
+      result.candidates.push_back(*bent);
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),
@@ -157,7 +160,7 @@ bool ViewFitOptions::isValid(std::string* why) const {
 const ShapeCandidate& ViewFit::straight() const {
   const auto found =
       std::find_if(candidates.begin(), candidates.end(), [](const auto& c) {
-        return c.shape != ShapeClass::TAPERED && c.shape != ShapeClass::VESSEL;
+        return c.shape < ShapeClass::TAPERED; // those of the paper come first
       });
   return found == candidates.end() ? chosen : *found;
 }
@@ -174,6 +177,8 @@ const char* toString(ShapeClass shape) {
     return "ellipsoid";
   case ShapeClass::TAPERED:
     return "tapered";
+  case ShapeClass::BENT:
+    return "bent";
   case ShapeClass::VESSEL:
     return "vessel";
   }

@@ -208,6 +208,10 @@ void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chos
     fitTaperAllPoints(problem, sigma, chosen);
     return;
   }
+  if (chosen.shape == ShapeClass::BENT) {
+    fitBentAllPoints(problem, sigma, chosen);
+    return;
+  }
   if (chosen.shape == ShapeClass::VESSEL) {
     fitVesselAllPoints(problem, sigma, chosen);
     return;

@@ -21,6 +21,10 @@ inline constexpr double SHARED_AXIS = 12.0;
  * (TaperedFit::DEMAND says the same in nats). */
 inline constexpr double TAPER = 20.0;
 
+/** \brief The same against a bent rod: points of a straight body's one side bend as
+ * well. */
+inline constexpr double BENT = 20.0;
+
 /** \brief The same against an open vessel: about as many things are vessels as are not,
  * but its wall may follow what is no vessel's. */
 inline constexpr double VESSEL = 10.0;

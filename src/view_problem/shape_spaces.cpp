@@ -33,6 +33,7 @@ ParameterSpace spaceOf(ShapeClass shape) {
     return ParameterSpace::without(1U << 9 | 1U << 10);
   case ShapeClass::GENERIC:
   case ShapeClass::TAPERED:
+  case ShapeClass::BENT:
   case ShapeClass::VESSEL:
     break;
   }

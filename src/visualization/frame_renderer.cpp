@@ -55,7 +55,8 @@ reduce(const vtkUnsignedCharArray& pixels, int width, int height, int zoom) {
         int sum = 0;
         for (int dy = 0; dy < zoom; ++dy)
           for (int dx = 0; dx < zoom; ++dx)
-            sum += from[row * ((height - 1 - y) * zoom + dy) + 3 * (x * zoom + dx) + c];
+            sum += from[row * std::size_t((height - 1 - y) * zoom + dy) +
+                        std::size_t(3) * (x * zoom + dx) + c];
         image.rgb[3 * (static_cast<std::size_t>(y) * width + x) + c] =
             static_cast<std::uint8_t>((sum + zoom * zoom / 2) / (zoom * zoom));
       }

@@ -15,7 +15,7 @@ namespace pcl_sq::test {
 inline double firstHit(const Superquadric& s,
                        const Eigen::Vector3d& from,
                        const Eigen::Vector3d& ray) {
-  if (s.isCut()) { // one may see into it
+  if (s.isCut() || s.isBent()) { // one may see into it, or through
     double at;
     return pcl_sq::firstHit(s, from, ray, at) ? at
                                               : std::numeric_limits<double>::infinity();

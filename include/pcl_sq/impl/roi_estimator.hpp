@@ -101,8 +101,9 @@ bool RoiEstimator<PointT>::findSidesAtMedianDepth(RoiBox& region,
     if (!pcl::isXYZFinite(point) || !(point.z > 0.0f))
       continue;
     const double z = point.z;
-    rays[0].add(index % width, point.x / z);
-    rays[1].add(index / width, point.y / z);
+    const auto row = index / width, column = index % width;
+    rays[0].add(column, point.x / z);
+    rays[1].add(row, point.y / z);
   }
   if (rect_.empty() || !rays[0].isValid() || !rays[1].isValid()) {
     why = "the sides at the median depth need a 2D region of an organized cloud in the "

@@ -207,6 +207,7 @@ void SampleConsensusModelSuperquadric<PointT>::optimizeModelCoefficients(
     const Eigen::VectorXf& model_coefficients,
     Eigen::VectorXf& optimized_coefficients) const {
   // SampleConsensus::refineModel() hands over one vector as both arguments
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const Eigen::VectorXf start = model_coefficients;
   optimized_coefficients = start;
   if (!isModelValid(start) || inliers.size() < MIN_SAMPLE_SIZE) {

@@ -26,12 +26,12 @@ namespace detail {
 
 /** \brief Whether points have a colour of their own. */
 template <typename PointT, typename = void>
-constexpr bool HAS_COLOR = false;
+inline constexpr bool HAS_COLOR = false;
 template <typename PointT>
-constexpr bool HAS_COLOR<PointT,
-                         std::void_t<decltype(std::declval<PointT>().r),
-                                     decltype(std::declval<PointT>().g),
-                                     decltype(std::declval<PointT>().b)>> = true;
+inline constexpr bool HAS_COLOR<PointT,
+                                std::void_t<decltype(std::declval<PointT>().r),
+                                            decltype(std::declval<PointT>().g),
+                                            decltype(std::declval<PointT>().b)>> = true;
 
 } // namespace detail
 

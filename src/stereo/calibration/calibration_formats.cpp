@@ -64,7 +64,8 @@ void raiseLoad(const std::string& what) {
 
 cv::Mat
 matrixOf(const CalibrationEntry& entry, const std::string& name, int rows, int cols) {
-  if (entry.numbers.size() != static_cast<std::size_t>(rows * cols))
+  if (entry.numbers.size() !=
+      static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
     raiseLoad(name + " must hold " + std::to_string(rows) + " x " +
               std::to_string(cols) + " numbers but holds " +
               std::to_string(entry.numbers.size()) + "; correct the calibration file.");

@@ -21,7 +21,8 @@ struct DepthGrid {
 
   DepthGrid(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const cv::Rect& window);
   const pcl::PointXYZ& at(int u, int v) const {
-    return (*points)[static_cast<std::size_t>(v * width + u)];
+    return (*points)[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(u)];
   }
   float medianDepth() const; ///< \pre there is a finite cell
   /** \brief A mask of cells as one of the window's pixels. */

@@ -176,12 +176,11 @@ DisplaySurface displaySurface(const Superquadric& s, int steps) {
     for (const ProfilePoint& h : equator) {
       const double share = m.x / radius;
       const Eigen::Vector3d straight(share * h.x, share * h.y, m.y);
-      surface.vertices.push_back(
-          s.toWorld(straight.cwiseProduct(detail::growth(s, m.y))));
+      surface.vertices.push_back(s.toWorld(detail::deformed(s, straight)));
       const double weight = m.nx * radius;
       const Eigen::Vector3d normal(weight * h.nx, weight * h.ny, m.ny);
       surface.normals.push_back(
-          (s.rotation * detail::taperedAreaVector(s, straight, normal)).normalized());
+          (s.rotation * detail::deformedAreaVector(s, straight, normal)).normalized());
     }
   const auto index = [around](std::uint32_t row, std::uint32_t column) {
     return row * around + column % around;

@@ -52,7 +52,7 @@ bool canRender(Display* display) {
       glXChooseFBConfig(display, DefaultScreen(display), wanted, &count);
   if (configs == nullptr)
     return false;
-  const GLXFBConfig config = count > 0 ? configs[0] : nullptr;
+  GLXFBConfig config = count > 0 ? configs[0] : nullptr;
   XFree(configs);
   const auto create =
       reinterpret_cast<PFNGLXCREATECONTEXTATTRIBSARBPROC>(glXGetProcAddressARB(
@@ -63,7 +63,7 @@ bool canRender(Display* display) {
   const RefusalCounter counter;
   const int version[] = {
       GLX_CONTEXT_MAJOR_VERSION_ARB, 3, GLX_CONTEXT_MINOR_VERSION_ARB, 2, 0};
-  const GLXContext context = create(display, config, nullptr, True, version);
+  GLXContext context = create(display, config, nullptr, True, version);
   XSync(display, False);
   const bool made = context != nullptr && counter.refusals() == 0;
   if (context != nullptr)
@@ -84,7 +84,7 @@ Display* open(const char* name) {
 
 /** \brief DISPLAY if it names a display of this machine, else null. */
 const char* localDisplay() {
-  const char* name = std::getenv("DISPLAY");
+  const char* name = std::getenv("DISPLAY"); // NOLINT(concurrency-mt-unsafe): read only
   if (name == nullptr)
     return nullptr;
   const std::string host = std::string(name).substr(0, std::string(name).find(':'));

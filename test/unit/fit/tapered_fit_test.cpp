@@ -31,7 +31,7 @@ cloudOf(Random& random, const Superquadric& s, int count, double noise) {
   Eigen::Matrix3Xd points(3, count);
   for (int i = 0; i < count; ++i)
     points.col(i) =
-        s.tapered(on_shape[std::size_t(i)]) +
+        s.deformed(on_shape[std::size_t(i)]) +
         noise * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
   return points;
 }
@@ -123,7 +123,7 @@ TEST(TaperedFit, DependsNeitherOnTheUnitNorOnThePose) {
       fitTapered((1000.0 * (turn * points)).colwise() + 1000.0 * shift);
   ASSERT_TRUE(fit.ok() && other.ok());
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d p = truth.tapered(random.surfacePoint(straight(truth)));
+    const Eigen::Vector3d p = truth.deformed(random.surfacePoint(straight(truth)));
     EXPECT_NEAR(other.model.footPointDistance(1000.0 * (turn * p + shift)) / 1000.0,
                 fit.model.footPointDistance(p),
                 5e-5);

@@ -18,7 +18,7 @@ using pcl_sq::test::straight;
 namespace {
 
 Eigen::Vector3d surfacePoint(Random& random, const Superquadric& s) {
-  return s.tapered(random.surfacePoint(straight(s)));
+  return s.deformed(random.surfacePoint(straight(s)));
 }
 
 /** \brief The superquadric with one parameter moved, in the rows' order. */
@@ -51,7 +51,7 @@ TEST(Taper, GaugeHasTheDerivativesOfCentralDifferences) {
   Random random(1);
   for (int trial = 0; trial < 100; ++trial) {
     const Superquadric s = anyTapered(random);
-    const Eigen::Vector3d p = s.tapered(random.pointNear(s));
+    const Eigen::Vector3d p = s.deformed(random.pointNear(s));
     if (s.toLocal(p).cwiseAbs().minCoeff() < 0.05)
       continue; // a fold of |x|, where no difference is a derivative
     const detail::BodyRow row = detail::logGaugeRow(s, p);

@@ -52,7 +52,7 @@ TEST(ModelOpen, BadOnesAreRefusedWithASentence) {
         {"\"wall\":0.004", "\"wall\":0.09", "wall"},
         {"\"wall\":0.004", "\"wall\":-1", "wall"},
         {"\"wall\":0.004", "\"wall\":null", "wall"},
-        {"\"wall\":0.004", "\"bend\":[1,0]", "bend"}}) {
+        {"\"wall\":0.004", "\"wall\":0.004,\"bend\":[1,0]", "bent"}}) {
     ModelFile read;
     std::string why;
     EXPECT_FALSE(fromJson(replaced(text, good, bad), read, &why)) << bad;

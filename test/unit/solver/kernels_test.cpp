@@ -224,7 +224,7 @@ Scene taperedScene(Random& random, std::size_t count) {
   scene.shape.kx = random.uniform(-0.8, 0.8);
   scene.shape.ky = random.uniform(-0.8, 0.8);
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d grown = scene.shape.tapered(scene.points[i]);
+    const Eigen::Vector3d grown = scene.shape.deformed(scene.points[i]);
     scene.points[i] = grown.cast<float>().cast<double>();
   }
   scene.packed = {};

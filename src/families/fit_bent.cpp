@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The family of bent rods: bananas, handles.
+#include "families/bent_problem.h"
+#include "families/families.h"
+#include "families/robust_cost.h"
+#include "view_problem/shape_spaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Cost per observation from which on no family is near the body, as for a
+ * taper: where one is, a bend is not looked for. */
+constexpr double MISFIT = 1.3;
+constexpr double WIDE = 0.03;   ///< sigma of the search, in the points' deviation
+constexpr double SLENDER = 2.0; ///< a rod's length over its width at least
+constexpr double SLIGHT = 0.1;  ///< rad to either side, of a bend that starts straight
+constexpr std::size_t KEPT = 2; ///< starts that are refined
+constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 25;
+
+struct Rod {
+  Superquadric model;
+  double cost = 1e300; ///< over sigma^2
+  bool round = true;
+  bool held = false; ///< it lies on the table
+};
+
+Rod fitRod(const BentProblem& problem, const Rod& start, int iterations) {
+  LmLimits limits;
+  limits.max_iterations = iterations;
+  limits.cost_tolerance = 1e-5;
+  auto found =
+      minimiseSquares(problem, start.model, bentBasis(start.round, start.held), limits);
+  Rod rod = start;
+  rod.model = found.model;
+  rod.model.rotation =
+      Eigen::Quaterniond(found.model.rotation).normalized().toRotationMatrix();
+  rod.cost = rod.model.isValid()
+                 ? found.equations.cost / (problem.unit() * problem.unit())
+                 : 1e300;
+  return rod;
+}
+
+ShapeCandidate candidateOf(const Rod& rod, const ViewProblem& problem) {
+  ShapeCandidate c;
+  c.shape = ShapeClass::BENT;
+  c.before = rod.round ? ShapeClass::ROTATIONAL : ShapeClass::GENERIC;
+  c.upright = rod.held;
+  c.parameters = static_cast<int>(bentBasis(rod.round, rod.held).cols());
+  c.cost = rod.cost;
+  c.bic = c.cost + c.parameters * std::log(problem.observations()) + BENT;
+  c.model = rod.model;
+  return c;
+}
+
+/** \brief A straight rod about to bend, to either side of either axis across. */
+std::vector<Superquadric> straightStarts(const Superquadric& body) {
+  Eigen::Index longest;
+  body.semi_axes.maxCoeff(&longest);
+  std::vector<Superquadric> starts;
+  Superquadric s = withAxis(body, int(longest));
+  s.kx = s.ky = 0.0;
+  s.epsilon1 = std::min(s.epsilon1, 1.0);
+  s.epsilon2 = 1.0;
+  for (int turn = 0; turn < 4; ++turn) {
+    s.bend = SLIGHT / s.semi_axes.z();
+    starts.push_back(s);
+    s.rotation *=
+        Eigen::AngleAxisd(M_PI_2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    std::swap(s.semi_axes.x(), s.semi_axes.y());
+  }
+  return starts;
+}
+
+/** \brief Cost of the points alone, in units of sigma^2. */
+double pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {
+  constexpr double OUTLIER = 0.01; // as in the fits
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  const RobustCost density{sigma, OUTLIER};
+  double cost = 0.0, share;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    cost += density.cost(double(distances[i]) * double(distances[i]), share);
+  return cost / (sigma * sigma);
+}
+
+/** \brief A bent sheet is none. */
+bool isRod(const Superquadric& s) {
+  return s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff();
+}
+
+bool cheaper(const Rod& a, const Rod& b) {
+  return a.cost < b.cost;
+}
+
+} // namespace
+
+std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
+                                      double sigma,
+                                      const std::vector<ShapeCandidate>& candidates) {
+  const ShapeCandidate* best = nullptr;
+  for (const ShapeCandidate& c : candidates)
+    if (!best || c.cost < best->cost)
+      best = &c;
+  if (!best || !(best->cost > MISFIT * problem.observations()))
+    return std::nullopt;
+  std::vector<Superquadric> starts = bentStarts(problem);
+  if (!best->model.isCut())
+    for (const Superquadric& s : straightStarts(best->model))
+      starts.push_back(s);
+  const double wide = std::max(WIDE, 2.0 * problem.noise());
+  const BentProblem rough(problem, problem.coarse(), wide);
+  std::vector<Rod> found;
+  for (const Superquadric& s : starts)
+    if (s.isValid() && isRod(s)) {
+      Rod start{s};
+      start.model.semi_axes.head<2>().setConstant(
+          std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
+      found.push_back(fitRod(rough, start, SEARCH_ITERATIONS));
+    }
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), KEPT));
+  // of what is not bent, a bottle for instance, no arc is nearer to the points
+  if (found.empty() || !(pointsCost(problem.coarse(), wide, found.front().model) <
+                         pointsCost(problem.coarse(), wide, best->model)))
+    return std::nullopt;
+  const BentProblem thorough(problem, problem.medium(), sigma);
+  std::optional<ShapeCandidate> chosen;
+  const auto take = [&](const Rod& start) {
+    const Rod rod = fitRod(thorough, start, ITERATIONS);
+    const ShapeCandidate c = candidateOf(rod, problem);
+    if (rod.cost < 1e299 && isRod(rod.model) && (!chosen || c.bic < chosen->bic))
+      chosen = c;
+    return rod;
+  };
+  for (const Rod& start : found) {
+    Rod rod = take(start);
+    rod.round = false;
+    rod = take(rod);
+    if (!problem.hasUp() ||
+        !(std::abs(rod.model.rotation.col(1).dot(problem.up())) > UPRIGHT))
+      continue;
+    rod.held = true;
+    rod.model = upright(rod.model, 1, problem.up());
+    take(rod);
+    rod.round = true;
+    rod.model.semi_axes.head<2>().setConstant(
+        std::sqrt(rod.model.semi_axes.x() * rod.model.semi_axes.y()));
+    take(rod);
+  }
+  return chosen;
+}
+
+void fitBentAllPoints(const ViewProblem& problem,
+                      double sigma,
+                      ShapeCandidate& chosen) {
+  const Rod start{
+      chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
+  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma), start, ITERATIONS);
+  if (!(rod.cost < 1e299))
+    return;
+  chosen.bic += rod.cost - chosen.cost;
+  chosen.cost = rod.cost;
+  chosen.model = rod.model;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bending the z axis to a circle: x = R - (R - X) cos(Z / R), z = (R - X) sin(Z / R)
+// with R = 1 / curvature and X towards the circle's centre (M23).
+#include "geometry/bend.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Unit vector of the own frame towards the circle's centre, for a positive
+ * curvature. */
+Eigen::Vector3d towards(const Superquadric& s) {
+  return {std::cos(s.bend_angle), std::sin(s.bend_angle), 0.0};
+}
+
+/** \brief How far the section reaches along x and y at most. */
+Eigen::Vector2d widest(const Superquadric& s) {
+  return {s.semi_axes.x() * (1.0 + std::abs(s.kx)),
+          s.semi_axes.y() * (1.0 + std::abs(s.ky))};
+}
+
+/** \brief How far a box around the section reaches in the circle's plane. */
+double reachInPlane(const Superquadric& s) {
+  return towards(s).head<2>().cwiseAbs().dot(widest(s));
+}
+
+/** \brief Height over a3 and the section's scale of a point of the meridian: points
+ * (1 - |t|, t) of a line, scaled onto the superellipse. */
+struct Latitude {
+  double sine, cosine, height, scale;
+};
+
+Latitude latitude(const Superquadric& s, double t) {
+  const double share = std::abs(t), rest = 1.0 - share;
+  const double larger = std::max(share, rest), smaller = std::min(share, rest);
+  const double power = std::pow(smaller / larger, 2.0 / s.epsilon1);
+  const double norm = larger * std::pow(1.0 + power, 0.5 * s.epsilon1);
+  const double small = std::sqrt(power / (1.0 + power)),
+               large = 1.0 / std::sqrt(1.0 + power);
+  return {std::copysign(share > rest ? large : small, t),
+          share > rest ? small : large,
+          t / norm,
+          rest / norm};
+}
+
+/** \brief The place t of the meridian at a height over a3. */
+double placeAt(const Superquadric& s, double height) {
+  const double h = std::min(std::abs(height), 1.0);
+  const double scale = std::pow(1.0 - std::pow(h, 2.0 / s.epsilon1), 0.5 * s.epsilon1);
+  return std::copysign(h / (h + scale), height);
+}
+
+} // namespace
+
+BentFrame bentFrame(const Superquadric& s, double z) {
+  const Eigen::Vector3d d = towards(s);
+  const double angle = s.bend * z, half = std::sin(0.5 * angle);
+  BentFrame f;
+  f.middle = 2.0 * half * half / s.bend * d;
+  f.middle.z() = std::sin(angle) / s.bend;
+  f.axes =
+      Eigen::AngleAxisd(angle, Eigen::Vector3d(-d.y(), d.x(), 0.0)).toRotationMatrix();
+  return f;
+}
+
+Eigen::Vector3d bent(const Superquadric& s, const Eigen::Vector3d& p) {
+  if (!s.isBent())
+    return p;
+  const BentFrame f = bentFrame(s, p.z());
+  return f.middle + f.axes.leftCols<2>() * p.head<2>();
+}
+
+Eigen::Vector3d unbent(const Superquadric& s, const Eigen::Vector3d& local) {
+  if (!s.isBent())
+    return local;
+  const Eigen::Vector3d d = towards(s);
+  const double x = d.dot(local), y = d.x() * local.y() - d.y() * local.x();
+  const double ahead = 1.0 - s.bend * x, along = s.bend * local.z();
+  const double radius = std::hypot(ahead, along); // over the circle's
+  const double across =
+      (2.0 * x - s.bend * (x * x + local.z() * local.z())) / (1.0 + radius);
+  return {d.x() * across - d.y() * y,
+          d.y() * across + d.x() * y,
+          std::atan2(along, ahead) / s.bend};
+}
+
+double fibre(const Superquadric& s, const Eigen::Vector3d& p) {
+  return s.isBent() ? std::max(1.0 - s.bend * towards(s).dot(p), 0.0) : 1.0;
+}
+
+Eigen::Vector3d bendVelocity(const Superquadric& s, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d d = towards(s);
+  const double z = p.z(), angle = s.bend * z;
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  double x_slope = 0.5 * z * z, z_slope = -angle * z * z / 3.0; // of the circle
+  if (std::abs(angle) > 1e-3) {
+    x_slope = (angle * sine - (1.0 - cosine)) / (s.bend * s.bend);
+    z_slope = (angle * cosine - sine) / (s.bend * s.bend);
+  }
+  const double across = d.dot(p);
+  return (x_slope - across * z * sine) * d +
+         (z_slope - across * z * cosine) * Eigen::Vector3d::UnitZ();
+}
+
+Eigen::Vector3d bentHalfSizes(const Superquadric& s) {
+  const Eigen::Vector3d d = towards(s);
+  const double radius = 1.0 / std::abs(s.bend), angle = s.semi_axes.z() / radius;
+  const double width = reachInPlane(s);
+  const double end =
+      radius -
+      std::cos(angle) * (std::cos(angle) > 0.0 ? radius - width : radius + width);
+  const double in_plane = std::max(width, end);
+  const double beside = Eigen::Vector2d(d.y(), d.x()).cwiseAbs().dot(widest(s));
+  return {std::abs(d.x()) * in_plane + std::abs(d.y()) * beside,
+          std::abs(d.y()) * in_plane + std::abs(d.x()) * beside,
+          (radius + width) * (angle < M_PI_2 ? std::sin(angle) : 1.0)};
+}
+
+const char* invalidBend(const Superquadric& s) {
+  if (!std::isfinite(s.bend) || !std::isfinite(s.bend_angle))
+    return "a bend is not finite";
+  if (!s.isBent())
+    return nullptr;
+  if (s.isCut())
+    return "a bent body has a rim or a wall, which is not supported";
+  if (!(std::abs(s.bend) * s.semi_axes.z() <= Superquadric::MAX_BEND))
+    return "a body is bent by more than 3 rad to either side and meets itself";
+  if (!(std::abs(s.bend) * reachInPlane(s) <= Superquadric::MAX_FOLD))
+    return "a body is bent so far that it folds: it is wider than the circle's radius";
+  return nullptr;
+}
+
+BentContact
+bentContact(const Superquadric& s, const Eigen::Vector3d& n, double low, double high) {
+  constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
+  constexpr int SLICES = 24, REFINEMENTS = 30;
+  constexpr double GOLDEN = 0.6180339887498949;
+  const double e2 = std::min(s.epsilon2, MAX_SECTION), p = 2.0 / (2.0 - e2);
+  const Eigen::Vector3d& a = s.semi_axes;
+  struct Slice {
+    Latitude at;
+    BentFrame frame;
+    Eigen::Vector2d n, size; ///< direction in the section, its semi-axes
+    double u, v, norm, reach;
+  };
+  const auto slice = [&](double t) {
+    Slice c;
+    c.at = latitude(s, t);
+    c.frame = bentFrame(s, a.z() * c.at.height);
+    c.n = c.frame.axes.leftCols<2>().transpose() * n;
+    c.size = {a.x() * (1.0 + s.kx * c.at.height), a.y() * (1.0 + s.ky * c.at.height)};
+    c.u = std::abs(c.n.x()) * c.size.x();
+    c.v = std::abs(c.n.y()) * c.size.y();
+    const double larger = std::max(c.u, c.v), smaller = std::min(c.u, c.v);
+    c.norm = larger > 0.0
+                 ? larger * std::pow(1.0 + std::pow(smaller / larger, p), 1.0 / p)
+                 : 0.0;
+    c.reach = n.dot(c.frame.middle) + c.at.scale * c.norm;
+    return c;
+  };
+  const double begin = placeAt(s, low), end = placeAt(s, high);
+  const double step = (end - begin) / SLICES;
+  double best = begin, most = slice(begin).reach;
+  for (int i = 1; i <= SLICES; ++i) {
+    const double reach = slice(begin + i * step).reach;
+    if (reach > most) {
+      most = reach;
+      best = begin + i * step;
+    }
+  }
+  double left_end = std::max(best - step, begin),
+         right_end = std::min(best + step, end);
+  double left = right_end - GOLDEN * (right_end - left_end),
+         right = left_end + GOLDEN * (right_end - left_end);
+  double at_left = slice(left).reach, at_right = slice(right).reach;
+  for (int i = 0; i < REFINEMENTS; ++i)
+    if (at_left > at_right) {
+      right_end = right;
+      right = left;
+      at_right = at_left;
+      at_left = slice(left = right_end - GOLDEN * (right_end - left_end)).reach;
+    } else {
+      left_end = left;
+      left = right;
+      at_left = at_right;
+      at_right = slice(right = left_end + GOLDEN * (right_end - left_end)).reach;
+    }
+  const double refined = 0.5 * (left_end + right_end);
+  if (slice(refined).reach > most)
+    best = refined;
+  const Slice c = slice(best);
+  BentContact contact;
+  contact.reach = c.reach;
+  contact.sine = c.at.sine;
+  contact.cosine = c.at.cosine;
+  const double larger = std::max(c.u, c.v);
+  contact.shares = {0.5, 0.5};
+  if (larger > 0.0) {
+    const double x = std::pow(c.u / larger, p), y = std::pow(c.v / larger, p);
+    contact.shares = Eigen::Vector2d(x, y) / (x + y);
+  }
+  const auto side = [&](int k) {
+    return std::copysign(std::pow(contact.shares[k], 0.5 * e2), c.n[k]) * c.at.scale *
+           c.size[k];
+  };
+  contact.unbent = {side(0), side(1), a.z() * c.at.height};
+  contact.at = bent(s, contact.unbent);
+  return contact;
+}
+
+int convexPieces(const Superquadric& s) {
+  constexpr double SAGITTA_ANGLE = 0.35; // rad to either side: a sagitta of 6 % of R
+  return std::max(1,
+                  int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / SAGITTA_ANGLE)));
+}
+
+BentMoments bentMoments(const Superquadric& s) {
+  const Eigen::Vector3d d = towards(s), f(-d.y(), d.x(), 0.0);
+  BentMoments m;
+  forEachSection(s, -1.0, 1.0, 0.0, [&](double z, double dz, const SectionMoments& c) {
+    // second moments along the circle's plane and across it; the third ones are zero
+    const double in_plane = d.x() * d.x() * c.xx + d.y() * d.y() * c.yy;
+    const double across = d.y() * d.y() * c.xx + d.x() * d.x() * c.yy;
+    const double mixed = d.x() * d.y() * (c.yy - c.xx);
+    const BentFrame frame = bentFrame(s, z);
+    const Eigen::Vector3d e = frame.axes * d, shift = in_plane * e + mixed * f;
+    m.volume += dz * c.area;
+    m.first += dz * (c.area * frame.middle - s.bend * shift);
+    const Eigen::Matrix3d lever = frame.middle * shift.transpose(),
+                          turned = e * f.transpose();
+    m.second +=
+        dz * (c.area * frame.middle * frame.middle.transpose() -
+              s.bend * (lever + lever.transpose()) + in_plane * e * e.transpose() +
+              across * f * f.transpose() + mixed * (turned + turned.transpose()));
+  });
+  return m;
+}
+
+} // namespace pcl_sq::detail
