@@ -98,8 +98,9 @@ void keepNearer(const Superquadric& body,
     for (const Eigen::Index i : near) {
       const Place place = placeOf(body, turn * (points.col(i) - body.center));
       const double slope = logGradient(body, place).norm();
-      const double distance =
-          slope > 0.0 ? place.gauge.value / slope : -body.semi_axes.minCoeff();
+      // (G - 1) / |grad G|, which does not vanish in the middle as ln G / |grad ln G|
+      const double distance = slope > 0.0 ? (1.0 - std::exp(-place.gauge.value)) / slope
+                                          : -body.semi_axes.minCoeff();
       if (distance < distances[i])
         distances[i] = distance;
     }

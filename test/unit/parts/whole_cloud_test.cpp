@@ -63,7 +63,7 @@ Eigen::Matrix3Xd pan() {
     const double radius = 0.12 * std::sqrt(random.uniform(0.0, 1.0));
     const double turn = random.uniform(0.0, 6.283);
     points.col(i) << radius * std::cos(turn), radius * std::sin(turn),
-        0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.004);
+        0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.012);
   }
   return points;
 }
@@ -88,15 +88,15 @@ TEST(CloudGraph, LegsOfATableAreItsLimbs) {
   detail::Segment all(std::size_t(points.cols()));
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(graph.components(all).size(), 1u);
-  std::size_t most = 0;
+  bool found = false;
   for (const auto& segments : graph.limbs(all, Eigen::Matrix3d::Identity(), 24)) {
-    most = std::max(most, segments.size());
+    found = found || segments.size() == std::size_t(LEGS + 1);
     std::size_t points_of_all = 0;
     for (const auto& segment : segments)
       points_of_all += segment.size();
     EXPECT_EQ(points_of_all, all.size()) << "each point is in one segment";
   }
-  EXPECT_EQ(most, std::size_t(LEGS + 1));
+  EXPECT_TRUE(found) << "no way shows the legs and the top";
 }
 
 TEST(WholeCloud, EveryLegOfATableIsAPart) {
