@@ -240,8 +240,9 @@ TEST(Bend, RaysMeetTheFirstArmAndPassThroughTheHole) {
         march = t;
     if (firstHit(s, origin, ray, at) && march > 0.0) {
       EXPECT_NEAR(at, march, 3e-5);
-    } else if (march > 0.0) // missed: no more than a graze
+    } else if (march > 0.0) { // missed: no more than a graze
       EXPECT_GT(s.gauge(origin + (march + 1e-3) * ray), 0.8);
+    }
   }
 }
 
