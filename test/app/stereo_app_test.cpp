@@ -108,7 +108,7 @@ TEST_F(StereoApp, RefusesBadInputWithOneSentence) {
   expectRefusal({l, r, "--calib", c, "--color", "300,0,0"}, "from 0 to 255", 2);
   expectRefusal({l, r, "--calib", c, "--color", "255,0,255"}, "give another one");
   expectRefusal({l, file("mask.png"), "--calib", c},
-                "nothing on the object was matched");
+                "nothing was found that stands on a table");
   const Folder folder;
   const std::string grey =
       folder.write("grey.pgm", "P5\n640 480\n255\n" + std::string(640 * 480, '\x80'));
