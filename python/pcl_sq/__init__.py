@@ -90,8 +90,9 @@ def estimate_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
     color_hint, segment, parts, ..."""
     if "color_hint" in options:
         options["color"] = options.pop("color_hint")
-    return _from_images(color, None, depth, mask, [],
-                        dict(options, intrinsics=intrinsics, depth_scale=depth_scale))
+    if depth_scale is not None:
+        depth = np.asarray(depth, np.float32) * np.float32(depth_scale)
+    return _from_images(color, None, depth, mask, [], dict(options, intrinsics=intrinsics))
 
 
 def estimate_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
