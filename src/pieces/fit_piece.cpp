@@ -90,12 +90,13 @@ void fitPiece(const PieceContext& context,
         0.5 * double(evidence.silhouette.size());
     assessed.straight_misfit = assessed.misfit;
     assessed.straight_score = assessed.score;
-    if (assessed.fit.chosen.shape == ShapeClass::TAPERED) {
-      const ShapeCandidate &tapered = assessed.fit.chosen,
-                           &straight = assessed.fit.straight();
-      assessed.straight_misfit += straight.cost - tapered.cost;
-      assessed.straight_score += straight.cost - tapered.cost - TAPER -
-                                 (tapered.parameters - straight.parameters) * price;
+    const ShapeCandidate &chosen = assessed.fit.chosen,
+                         &straight = assessed.fit.straight();
+    // a vessel that fits is no two parts, whatever a solid makes of it
+    if (chosen.shape == ShapeClass::TAPERED || chosen.shape == ShapeClass::BENT) {
+      assessed.straight_misfit += straight.cost - chosen.cost;
+      assessed.straight_score += straight.cost - chosen.cost - demandOf(chosen.shape) -
+                                 (chosen.parameters - straight.parameters) * price;
     }
     return assessed;
   };

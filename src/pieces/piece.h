@@ -25,8 +25,8 @@ struct Piece {
   double covered = 0.0;  ///< cost of the free pixels that it covers
   double misfit = 1e300; ///< cost of points, planes and free pixels
   double score = 1e300;  ///< M17: smaller is better; pieces add up
-  /** \brief The same two without a taper: what a taper explains two parts may explain
-   * better, and the quick fits of cuts know no taper. */
+  /** \brief The same two without a taper or bend: what those explain two parts may
+   * explain better, and the quick fits of cuts know neither. */
   double straight_misfit = 1e300, straight_score = 1e300;
   bool final = false; ///< no cut improved it
 };
