@@ -9,8 +9,8 @@
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/sides.h"
-#include <pybind11/operators.h>
 #include <limits>
+#include <pybind11/operators.h>
 #include <sstream>
 
 namespace pcl_sq::python {
@@ -68,7 +68,8 @@ py::array_t<double> eachVector(const py::object& array, const Function& f) {
 }
 
 /** \brief Distances of many points by the kernels; inf becomes NaN. */
-inline std::vector<double> quickDistances(const Superquadric& body, const PointArray& points) {
+inline std::vector<double> quickDistances(const Superquadric& body,
+                                          const PointArray& points) {
   const Eigen::VectorXd d = points.visit(
       [&](const auto& columns) { return surfaceDistances(body, columns); });
   return {d.data(), d.data() + d.size()};
