@@ -39,7 +39,7 @@ struct FrontOptions {
 struct FrontResult {
   StereoResult stereo;
   Segment segment; ///< its mask is empty if only a box is known
-  PixelRect rect;  ///< 2D query
+  CellRect rect;   ///< 2D query
   DepthHistogram histogram;
   RoiBox region;                  ///< 3D query
   pcl::Indices object;            ///< points of the object in the stereo cloud

@@ -27,7 +27,7 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
   timings.emplace_back("total", total);
   file.timings_ms = timings;
   nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
-  const PixelRect& r = front.rect;
+  const CellRect& r = front.rect;
   extra["stereo"] = {
       {"matcher",
        !o.depth.empty()                          ? "depth image"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Private. What the least squares of all families do alike: points as robust rows, steps
-// within a trust region, bounds, held directions.
+// Private. What the least squares of all families do alike: points as robust rows,
+// steps within a trust region, bounds, held directions.
 #pragma once
 
 #include "families/robust_cost.h"
@@ -50,8 +50,9 @@ bool shorten(std::initializer_list<TrustRegion> regions, Vector& step) {
 }
 
 /** \brief Moves a body along its own axes and turns it about them. */
-inline void
-moveRigidly(const Eigen::Vector3d& along, const Eigen::Vector3d& turn, Superquadric& s) {
+inline void moveRigidly(const Eigen::Vector3d& along,
+                        const Eigen::Vector3d& turn,
+                        Superquadric& s) {
   s.center += s.rotation * along;
   if (turn.norm() > 0.0)
     s.rotation *= Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
