@@ -20,17 +20,19 @@ constexpr double GRAZING = 0.1;        ///< least cosine that counts: noise is t
 constexpr double FAR = 6.0; ///< camera that is looked for, in half diagonals
 constexpr int DIRECTIONS = 200, AROUND = 24;
 constexpr double SPACING = 0.14; ///< half a step between directions [rad]
-/** \brief How much more uneven a place's image may be than another's: the median
- * scatter of as many patches is known to 5 %, and this is four times the deviation of
+/** \brief How much more uneven a place's image may be than another's: the scatter
+ * of as many patches is known to 5 %, and this is four times the deviation of
  * two. */
 constexpr double MORE = 1.25;
-constexpr double OF_NORMAL = 1.4826; ///< deviation over the median absolute one
 
-double deviation(std::vector<double> values) {
+/** \brief Mean distance to the median: a small face of a box counts as well, which the
+ * median distance would not see. */
+double deviation(const std::vector<double>& values) {
   const double middle = median(values);
-  for (double& v : values)
-    v = std::abs(v - middle);
-  return OF_NORMAL * median(std::move(values));
+  double sum = 0.0;
+  for (const double v : values)
+    sum += std::abs(v - middle);
+  return sum / double(values.size());
 }
 
 } // namespace
@@ -78,7 +80,7 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
                           std::sin(turn) * rough.cross(across)))
              .normalized());
   }
-  if (!(least_ < deviation(std::move(densities))))
+  if (!(least_ < deviation(densities)))
     return;
   std::vector<double> bulges;
   for (const Patch& patch : patches_)
@@ -126,7 +128,7 @@ double PointSpread::unevenness(const Eigen::Vector3d& place) const {
     in_image.push_back(patch.density - std::log(std::max(cosine, GRAZING)) +
                        2.0 * std::log(length));
   }
-  return deviation(std::move(in_image));
+  return deviation(in_image);
 }
 
 bool PointSpread::allows(const Eigen::Vector3d& place) const {
