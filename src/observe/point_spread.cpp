@@ -17,7 +17,7 @@ constexpr std::size_t NEIGHBOURS = 12; ///< whose reach is the density's measure
 constexpr std::size_t PLANE = 24;      ///< neighbours that give the normal
 constexpr std::size_t AROUND_IT = 96;  ///< that tell on which side it bulges
 constexpr double GRAZING = 0.1;        ///< least cosine that counts: noise is thicker
-constexpr double FAR = 6.0; ///< camera that is looked for, in half diagonals
+constexpr double FAR = 6.0;            ///< camera that is looked for, in half diagonals
 constexpr int DIRECTIONS = 200, AROUND = 24;
 constexpr double SPACING = 0.14; ///< half a step between directions [rad]
 /** \brief How much more uneven a place's image may be than another's: the scatter
@@ -76,8 +76,8 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   for (int i = 0; i < AROUND; ++i) {
     const double turn = i * 2.399963229728653;
     const double away = SPACING * std::sqrt((i + 0.5) / AROUND);
-    look((rough + away * (std::cos(turn) * across +
-                          std::sin(turn) * rough.cross(across)))
+    look((rough +
+          away * (std::cos(turn) * across + std::sin(turn) * rough.cross(across)))
              .normalized());
   }
   if (!(least_ < deviation(densities)))
@@ -88,10 +88,9 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   direction_ = median(std::move(bulges)) > 0.0 ? best : -best;
 }
 
-std::optional<PointSpread::Patch>
-PointSpread::patchOf(const Eigen::Matrix3Xd& points,
-                     Eigen::Index middle,
-                     std::vector<Eigen::Index> near) {
+std::optional<PointSpread::Patch> PointSpread::patchOf(const Eigen::Matrix3Xd& points,
+                                                       Eigen::Index middle,
+                                                       std::vector<Eigen::Index> near) {
   const auto distance = [&](Eigen::Index k) {
     return (points.col(k) - points.col(middle)).squaredNorm();
   };

@@ -25,6 +25,13 @@ struct Split {
   double score = 1e300;
 };
 
+/** \brief Score of a piece without a bend: a bent rod goes through the tops of two
+ * balls, and hides for the time being that they are two. */
+double unbent(const Piece& piece) {
+  return piece.fit.chosen.shape == ShapeClass::BENT ? piece.straight_score
+                                                    : piece.score;
+}
+
 Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
   Split s;
   s.cut = cut;
@@ -47,7 +54,7 @@ bool betterSplit(const Split& a, const Split& b) {
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
   fitPiece(context, s.first, Effort::AGAIN, axis);
   fitPiece(context, s.second, Effort::AGAIN, axis ? axis : axisOf(s.first));
-  s.score = s.first.score + s.second.score;
+  s.score = unbent(s.first) + unbent(s.second);
 }
 
 /** \brief Adds the best cut moved to where its two parts fit better: a bottle's
@@ -143,8 +150,7 @@ void takeBack(const std::vector<Parting>& partings,
   }
   std::vector<bool> gone(pieces.size(), false);
   for (auto p = partings.rbegin(); p != partings.rend(); ++p) {
-    const bool pays =
-        p->whole.score - (score[p->first] + score[p->second]) > min_gain;
+    const bool pays = p->whole.score - (score[p->first] + score[p->second]) > min_gain;
     for (std::size_t k = 0; k < pieces.size(); ++k)
       if (belongs_to[k] == p->first || belongs_to[k] == p->second) {
         belongs_to[k] = p->first;
@@ -226,8 +232,8 @@ void splitView(const PieceContext& context,
       Piece& piece = pieces[i];
       Piece body, handle;
       const double explained = GOOD_FIT * observations(context, piece);
-      const bool good = piece.straight_misfit < explained &&
-                        !standsOff(context, piece, body, handle);
+      const bool good =
+          piece.straight_misfit < explained && !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
       Split s =
@@ -235,9 +241,8 @@ void splitView(const PieceContext& context,
                     piece,
                     main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
                     exactly ? 1e299 : piece.straight_score);
-      const double whole = exactly || piece.misfit < explained
-                               ? piece.score
-                               : std::max(piece.score, piece.straight_score);
+      const double whole =
+          exactly || piece.misfit < explained ? piece.score : unbent(piece);
       if (whole - s.score > gain) {
         gain = whole - s.score;
         best = std::move(s);
