@@ -49,8 +49,7 @@ Lid lidOf(const UnitPoints& points, const Superquadric& body, double sigma) {
 }
 
 /** \brief The points with those of the lid lifted to the rim. */
-UnitPoints
-lifted(const UnitPoints& points, const Lid& lid, const Eigen::Vector3d& up) {
+UnitPoints lifted(const UnitPoints& points, const Lid& lid, const Eigen::Vector3d& up) {
   const kernels::Points all = points.view();
   std::vector<bool> on_lid(points.size(), false);
   for (const std::size_t i : lid.points)

@@ -59,7 +59,8 @@ cloudOf(const TableScene& scene, const Eigen::Matrix3Xf& points, bool colored) {
 
 /** \brief Largest distance of the models' centres above the table to the truth's, each
  * to the nearest [m]. */
-inline double farthest(const Scene& scene, const TableScene& truth, const PinholeCamera& to) {
+inline double
+farthest(const Scene& scene, const TableScene& truth, const PinholeCamera& to) {
   double most = 0.0;
   for (const Superquadric& thing : truth.things) {
     const Eigen::Vector3d at = to.rotation.transpose() * (thing.center - to.center);
@@ -72,8 +73,8 @@ inline double farthest(const Scene& scene, const TableScene& truth, const Pinhol
 }
 
 inline Scene estimate(const pcl::PointCloud<pcl::PointXYZRGB>::Ptr& cloud,
-               const LabelImage& labels = {},
-               unsigned int threads = 0) {
+                      const LabelImage& labels = {},
+                      unsigned int threads = 0) {
   SceneEstimation<pcl::PointXYZRGB> estimation;
   estimation.setInputCloud(cloud);
   estimation.setLabels(labels);

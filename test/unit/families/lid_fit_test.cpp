@@ -21,8 +21,8 @@ Scene estimateTin(double depth) {
     const Eigen::Vector3d p = room.col(i).cast<double>();
     const Eigen::Vector3d ray = p - truth.camera.center;
     const Eigen::Vector3d lid = p + depth / -ray.z() * ray;
-    if (p.head<2>().norm() < 0.9 * can.semi_axes.x() &&
-        p.z() > top - 0.01 && lid.head<2>().norm() < 0.9 * can.semi_axes.x())
+    if (p.head<2>().norm() < 0.9 * can.semi_axes.x() && p.z() > top - 0.01 &&
+        lid.head<2>().norm() < 0.9 * can.semi_axes.x())
       room.col(i) = lid.cast<float>();
   }
   const Eigen::Matrix3Xf seen = (truth.camera.rotation.transpose() *
