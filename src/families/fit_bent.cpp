@@ -128,7 +128,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
     for (const Superquadric& s : straightStarts(best->model))
       starts.push_back(s);
   const double wide = std::max(WIDE, 2.0 * problem.noise());
-  const BentProblem rough(problem, problem.coarse(), wide);
+  const BentProblem rough(problem, problem.coarse(), wide, true);
   std::vector<Rod> found;
   for (const Superquadric& s : starts)
     if (s.isValid() && isRod(s)) {
