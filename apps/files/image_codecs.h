@@ -8,8 +8,8 @@
 
 namespace pcl_sq::app {
 
-/** \brief OpenCV's codecs, which bring a hundred libraries with them. Where libraries are
- * shared they are a plug-in, so that only runs which touch images load them. */
+/** \brief OpenCV's codecs, which bring a hundred libraries with them. Where libraries
+ * are shared they are a plug-in, so that only runs which touch images load them. */
 struct ImageCodecs {
   /** \brief An image of a file's bytes; empty where they are damaged. \param[in] flags
    * as of cv::imread */

@@ -9,8 +9,8 @@
 
 namespace pcl_sq::app {
 
-/** \brief What PCL's io does, which brings VTK with it. Where libraries are shared this is
- * a plug-in, so that only runs that need it load it. */
+/** \brief What PCL's io does, which brings VTK with it. Where libraries are shared this
+ * is a plug-in, so that only runs that need it load it. */
 struct PcdCodec {
   /** \brief Compressed binary file; empty where the cloud is too large for that. */
   std::string (*pack)(const pcl::PCLPointCloud2& cloud,

@@ -11,8 +11,8 @@ namespace pcl_sq {
 const VtkPart& vtkPart([[maybe_unused]] const std::string& who) {
 #ifdef PCL_SQ_PLUG_INS
   std::string why;
-  auto* part = detail::functionOf<const VtkPart*()>(
-      "pcl_sq_vtk.so", "pcl_sq_vtk_part", &why);
+  auto* part =
+      detail::functionOf<const VtkPart*()>("pcl_sq_vtk.so", "pcl_sq_vtk_part", &why);
   if (part == nullptr)
     throw Exception("[" + who + "] " + why + ".");
   return *part();

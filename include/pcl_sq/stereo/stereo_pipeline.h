@@ -62,12 +62,10 @@ struct StereoObject {
 /** \brief From pairs of images to models, one after the other: the paper's whole chain.
  *
  * Rectifying maps are made once. Where frames follow each other (setFollowing()) only
- * the surroundings of the last outline are matched, over the last depths, and the outline
- * is cut along the last one; a frame that does not fit the last one is looked at anew, as
- * a single pair is.
- * \code
- * StereoPipeline pipeline(StereoCalibration::load({"calib.yml"}));
- * pipeline.setFollowing(true);
+ * the surroundings of the last outline are matched, over the last depths, and the
+ * outline is cut along the last one; a frame that does not fit the last one is looked
+ * at anew, as a single pair is. \code StereoPipeline
+ * pipeline(StereoCalibration::load({"calib.yml"})); pipeline.setFollowing(true);
  * StereoObject result;
  * while (camera.grab(left, right))
  *   if (pipeline.process(left, right, result))
@@ -79,8 +77,8 @@ public:
   explicit StereoPipeline(StereoCalibration calibration = {})
       : reprojector_(std::move(calibration)) {}
 
-  /** \brief Sets the options and forgets the last frame; invalid ones are refused with a
-   * message. */
+  /** \brief Sets the options and forgets the last frame; invalid ones are refused with
+   * a message. */
   void setOptions(const StereoPipelineOptions& options);
   const StereoPipelineOptions& getOptions() const { return options_; }
   const StereoCalibration& getCalibration() const {
@@ -129,17 +127,17 @@ private:
 };
 
 /** \brief Tells ViewOptions what a pair's view holds: camera, noise, outline.
- * \param[in] painted whether the outline is a painted mask's, which is sharper than what
- * colours and depth find */
+ * \param[in] painted whether the outline is a painted mask's, which is sharper than
+ * what colours and depth find */
 PCL_SQ_EXPORTS void
 tellView(const StereoView& view, bool painted, ViewOptions& options);
 
 /** \brief The pair's own noise as that of its points: Z^2 / (f b) a pixel. */
 PCL_SQ_EXPORTS void tellNoise(const StereoResult& stereo, ViewOptions& options);
 
-/** \brief Why a model of the best mode is not to be trusted, a sentence, or "": it fills
- * but a piece of the box that was drawn, or leaves doubt where nobody pointed at it.
- * \param[in] hinted whether somebody did */
+/** \brief Why a model of the best mode is not to be trusted, a sentence, or "": it
+ * fills but a piece of the box that was drawn, or leaves doubt where nobody pointed at
+ * it. \param[in] hinted whether somebody did */
 PCL_SQ_EXPORTS std::string
 doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted);
 

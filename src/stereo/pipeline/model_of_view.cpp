@@ -27,8 +27,8 @@ void tellNoise(const StereoResult& stereo, ViewOptions& options) {
 }
 
 void tellView(const StereoView& view, bool painted, ViewOptions& options) {
-  // noise and dilation of an outline that was found: images are cut along edges that are
-  // blurred over about three pixels
+  // noise and dilation of an outline that was found: images are cut along edges that
+  // are blurred over about three pixels
   constexpr double FOUND_OUTLINE = 1.5, FOUND_DILATION = 1.0;
   const CameraIntrinsics& k = view.stereo.intrinsics;
   PinholeCamera camera;

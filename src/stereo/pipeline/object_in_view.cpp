@@ -113,16 +113,12 @@ Segment findObject(const StereoPipelineOptions& options, const StereoResult& sce
     found = segmenter.segmentClick(
         scene.left, (*hint.click)[0], (*hint.click)[1], *scene.cloud, segment);
   else if (hint.color)
-    found = segmenter.segmentColor(scene.left,
-                                   (*hint.color)[0],
-                                   (*hint.color)[1],
-                                   (*hint.color)[2],
-                                   segment);
+    found = segmenter.segmentColor(
+        scene.left, (*hint.color)[0], (*hint.color)[1], (*hint.color)[2], segment);
   else if (!hint.box.empty())
     found = segmenter.segmentBox(scene.left, hint.box, *scene.cloud, segment);
   else
-    found =
-        segmenter.segmentTabletop(scene.left, *tableCloud(options, scene), segment);
+    found = segmenter.segmentTabletop(scene.left, *tableCloud(options, scene), segment);
   if (!found)
     raise(segmenter.getFailure() + ".");
   return segment;
@@ -145,7 +141,8 @@ void findPoints(const StereoPipelineOptions& options, StereoView& view) {
   }
   DepthHistogramOptions histogram;
   // of a depth camera, bins are relative to the scene's depth
-  histogram.disparity_scale = view.stereo.intrinsics.fx * view.stereo.intrinsics.baseline;
+  histogram.disparity_scale =
+      view.stereo.intrinsics.fx * view.stereo.intrinsics.baseline;
   estimator.setHistogramOptions(histogram);
   const bool found = estimator.estimate(view.region, view.object);
   view.histogram = estimator.getHistogram();

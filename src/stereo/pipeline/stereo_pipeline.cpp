@@ -18,7 +18,7 @@ namespace {
 
 /** \brief How far outline and box may move from frame to frame, in sides of the box: as
  * far as a table around the object is seen, too. */
-constexpr double REACH = 0.5;
+constexpr double REACH = 0.25;
 /** \brief Share of two outlines that both hold of what any of them holds, below which
  * they are not those of one thing a moment later. */
 constexpr double SAME = 0.5;
@@ -42,7 +42,7 @@ cv::Mat moved(const cv::Mat& mask,
               const cv::Mat& picture,
               const cv::Rect& box,
               const cv::Mat& image) {
-  constexpr double LIKE = 0.5;    // correlation: more is shared than not
+  constexpr double LIKE = 0.5;     // correlation: more is shared than not
   constexpr double LONGEST = 64.0; // a search for a picture of more pixels takes longer
   const double scale = std::min(1.0, LONGEST / std::max(box.width, box.height));
   cv::Mat small_picture, small_image, grey, likeness;
@@ -139,6 +139,9 @@ bool StereoPipeline::followMask(StereoView& view) const {
                                 cv::boundingRect(last_->mask) - window.tl(),
                                 view.stereo.left);
     ObjectSegmenter segmenter;
+    SegmenterOptions settings;
+    settings.iterations = 1; // colours are learnt from the last outline, which is right
+    segmenter.setOptions(settings);
     if (rough.empty() || !segmenter.segmentMask(view.stereo.left, rough, view.segment))
       return false;
     view.rect = view.segment.rect;
@@ -151,11 +154,11 @@ void StereoPipeline::finish(StereoView& view) {
   const StereoHint& hint = options_.hint;
   const auto width = static_cast<int>(view.stereo.cloud->width);
   const auto height = static_cast<int>(view.stereo.cloud->height);
-  if (!hint.box.empty() &&
-      (rectOf(hint.box) & cv::Rect(0, 0, width, height)).empty())
-    throw Exception("[pcl_sq::StereoPipeline::look] --roi lies outside of the image of " +
-                    std::to_string(width) + " x " + std::to_string(height) +
-                    " px; give a region within it.");
+  if (!hint.box.empty() && (rectOf(hint.box) & cv::Rect(0, 0, width, height)).empty())
+    throw Exception(
+        "[pcl_sq::StereoPipeline::look] --roi lies outside of the image of " +
+        std::to_string(width) + " x " + std::to_string(height) +
+        " px; give a region within it.");
   if (hint.box_only && hint.mask.empty())
     view.rect = hint.box;
   else {
@@ -190,15 +193,14 @@ void StereoPipeline::remember(const StereoView& view) {
     last.mask = cv::Mat::zeros(k.height, k.width, CV_8U);
     view.segment.mask.copyTo(last.mask(window));
   }
-  cv::cvtColor(view.stereo.left(rectOf(view.segment.rect)),
-               last.picture,
-               cv::COLOR_BGR2GRAY);
-  // what is seen around the object, and how near and far it may go itself: a part of its
-  // depth
+  cv::cvtColor(
+      view.stereo.left(rectOf(view.segment.rect)), last.picture, cv::COLOR_BGR2GRAY);
+  // what is seen around the object, and how near and far it may go itself: a part of
+  // its depth
   constexpr double MOVES = 0.1, FEW = 0.01;
   std::vector<float> depths;
-  const cv::Rect near = rectOf(around(view.segment.mask)) &
-                        cv::Rect({}, view.segment.mask.size());
+  const cv::Rect near =
+      rectOf(around(view.segment.mask)) & cv::Rect({}, view.segment.mask.size());
   for (int y = near.y; y < near.y + near.height; y += 2)
     for (int x = near.x; x < near.x + near.width; x += 2)
       if (const float z = view.stereo.cloud->at(x, y).z; std::isfinite(z))
