@@ -28,7 +28,7 @@ void describeFront(const FrontOptions& o, const StereoView& front, ModelFile& fi
   timings.emplace_back("total", total);
   file.timings_ms = timings;
   nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
-  const PixelRect &r = front.rect, &window = front.stereo.window;
+  const CellRect &r = front.rect, &window = front.stereo.window;
   extra["stereo"] = {
       {"matcher",
        !o.depth.empty()                          ? "depth image"

@@ -56,7 +56,7 @@ TEST(StereoPipeline, LooksOnlyAroundTheLastOutlineWhereFramesFollow) {
   StereoObject first, second;
   ASSERT_TRUE(pipeline.process(s.left, s.right, first)) << first.failure;
   ASSERT_TRUE(pipeline.process(s.left, s.right, second)) << second.failure;
-  const PixelRect& window = second.view.stereo.window;
+  const CellRect& window = second.view.stereo.window;
   ASSERT_FALSE(window.empty());
   EXPECT_LT(window.width * window.height, s.left.total());
   EXPECT_EQ(window.width, second.view.stereo.left.cols);
@@ -76,7 +76,7 @@ TEST(StereoPipeline, FollowsAnObjectThatMoves) {
     const int x = 6 * frame, y = -3 * frame;
     ASSERT_TRUE(pipeline.process(moved(s.left, x, y), moved(s.right, x, y), next))
         << next.failure;
-    const PixelRect& window = next.view.stereo.window;
+    const CellRect& window = next.view.stereo.window;
     ASSERT_FALSE(window.empty());
     cv::Mat whole = cv::Mat::zeros(s.left.size(), CV_8U);
     next.view.segment.mask.copyTo(
@@ -124,7 +124,7 @@ TEST(StereoReprojector, MatchesAWindowAsTheWholePair) {
   const StereoResult whole = reprojector.compute(s.left, s.right);
   const StereoResult part = reprojector.compute(
       s.left, s.right, {{100, 60, 140, 120}, 0.6 * depth, 2.0 * depth});
-  ASSERT_EQ(part.window, (PixelRect{100, 60, 140, 120}));
+  ASSERT_EQ(part.window, (CellRect{100, 60, 140, 120}));
   int alike = 0, both = 0;
   for (int v = 10; v < 110; ++v)
     for (int u = 10; u < 130; ++u) {

@@ -13,7 +13,7 @@ namespace pcl_sq {
 
 /** \brief Where the object is in the rectified left image; at most one of these. */
 struct StereoHint {
-  PixelRect box;         ///< drawn around it; empty: none
+  CellRect box;          ///< drawn around it; empty: none
   bool box_only = false; ///< whether no outline is looked for in the box
   std::optional<std::array<int, 2>> click; ///< a pixel of it: x, y
   std::optional<std::array<int, 3>> color; ///< its colour: red, green, blue, 0 to 255
@@ -40,7 +40,7 @@ struct PCL_SQ_EXPORTS StereoPipelineOptions {
 struct StereoView {
   StereoResult stereo;
   Segment segment; ///< its mask is empty if only a box is known
-  PixelRect rect;  ///< 2D query
+  CellRect rect;   ///< 2D query
   DepthHistogram histogram;
   RoiBox region;       ///< 3D query [m]
   pcl::Indices object; ///< points of the object in the stereo cloud

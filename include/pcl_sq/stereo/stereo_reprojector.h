@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/roi.h"
+#include "pcl_sq/cell_mask.h"
 #include "pcl_sq/stereo/stereo_calibration.h"
 #include "pcl_sq/stereo/stereo_options.h"
 
@@ -29,14 +29,14 @@ struct StereoResult {
   double coverage = 0.0;       ///< share of pixels with depth, 0 to 1
   /** Part of the rectified left image that all of these belong to, cloud, images and
    * intrinsics alike; empty: the whole image. */
-  PixelRect window;
+  CellRect window;
   /** Stages and their times [ms]: rectify, match, reproject. */
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 
 /** \brief What is known of a pair before it is matched: where to look, how far. */
 struct StereoWindow {
-  PixelRect rect;                          ///< part of the rectified left image
+  CellRect rect;                           ///< part of the rectified left image
   double min_depth = 0.0, max_depth = 0.0; ///< as in StereoOptions, not 0 [m]
 };
 

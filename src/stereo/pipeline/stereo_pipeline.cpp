@@ -23,12 +23,12 @@ constexpr double REACH = 0.25;
  * they are not those of one thing a moment later. */
 constexpr double SAME = 0.5;
 
-cv::Rect rectOf(const PixelRect& r) {
+cv::Rect rectOf(const CellRect& r) {
   return {r.x, r.y, r.width, r.height};
 }
 
 /** \brief The surroundings of an outline. */
-PixelRect around(const cv::Mat& mask) {
+CellRect around(const cv::Mat& mask) {
   constexpr int LEAST = 48; // as wide as some matched windows [px]
   const cv::Rect box = cv::boundingRect(mask);
   const int dx = std::max(LEAST, static_cast<int>(REACH * box.width));

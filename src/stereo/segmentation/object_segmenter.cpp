@@ -92,13 +92,13 @@ bool ObjectSegmenter::finish(const std::string& method,
 }
 
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
-                                 const PixelRect& box,
+                                 const CellRect& box,
                                  Segment& segment) {
   return segmentBox(image, box, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
 }
 
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
-                                 const PixelRect& box,
+                                 const CellRect& box,
                                  const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                                  Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
@@ -249,7 +249,7 @@ bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
   return finish("segmentTabletop", rough, segment);
 }
 
-PixelRect boundingRect(const cv::Mat& mask) {
+CellRect boundingRect(const cv::Mat& mask) {
   const cv::Rect r = cv::boundingRect(mask);
   return {r.x, r.y, r.width, r.height};
 }
