@@ -76,6 +76,10 @@ public:
   /** \brief The largest patch of a colour. \param[in] red, green, blue 0 to 255 */
   [[nodiscard]] bool
   segmentColor(const cv::Mat& image, int red, int green, int blue, Segment& segment);
+  /** \brief The object whose outline is known roughly, such as that of a moment ago.
+   * \param[in] rough CV_8U, its pixels not 0, of the image's size */
+  [[nodiscard]] bool
+  segmentMask(const cv::Mat& image, const cv::Mat& rough, Segment& segment);
   /** \brief The largest object that stands on the largest plane, found in the
    * organized cloud and sharpened in the image. */
   [[nodiscard]] bool segmentTabletop(const cv::Mat& image,

@@ -218,6 +218,21 @@ bool ObjectSegmenter::segmentColor(
   return finish("segmentColor", object, segment);
 }
 
+bool ObjectSegmenter::segmentMask(const cv::Mat& image,
+                                  const cv::Mat& rough,
+                                  Segment& segment) {
+  if (image.empty() || image.depth() != CV_8U || rough.size() != image.size())
+    return fail("segmentMask",
+                "the image must be 8-bit and not empty, the mask of its size",
+                segment);
+  if (cv::countNonZero(rough) == 0)
+    return fail("segmentMask", "the mask is empty", segment);
+  return finish(
+      "segmentMask",
+      cutAroundMask(toBgr(image), rough, options_.margin, options_.iterations),
+      segment);
+}
+
 bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
                                       const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                                       Segment& segment) {
