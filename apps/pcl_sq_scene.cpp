@@ -115,7 +115,7 @@ LoadedCloud readInput(Arguments& a, std::vector<std::string>& notes) {
     return loadCloud(a.input, a.model.cloud);
   a.front.stereo.matcher = a.front.matcher.value_or(StereoMatcher::SGBM);
   a.front.stereo.refine = a.front.refine.value_or(true);
-  const FrontResult front = readViews(a.front);
+  const StereoView front = readViews(a.front);
   notes = front.notes;
   const CameraIntrinsics& k = front.stereo.intrinsics;
   a.model.intrinsics = {k.fx, k.fy, k.cx, k.cy};

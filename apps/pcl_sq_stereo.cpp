@@ -8,6 +8,7 @@
 #include "pcl_sq/stereo/histogram_plot.h"
 #include "report/summary.h"
 #include "stereo/panel.h"
+#include "stereo/sequence.h"
 #include "stereo/stereo_cloud.h"
 #include "stereo/stereo_front.h"
 #include "stereo/stereo_model.h"
@@ -71,7 +72,7 @@ void writeCloud(const std::string& path,
               formatOf(path, ".pcd") == ".ply" ? plyBytes(cloud) : pcdBytes(cloud));
 }
 
-PanelInput panelInput(const FrontResult& front,
+PanelInput panelInput(const StereoView& front,
                       const LoadedCloud& scene,
                       const LoadedCloud& object,
                       const ModelResult& result) {
@@ -99,7 +100,7 @@ PanelInput panelInput(const FrontResult& front,
   return in;
 }
 
-void writeFront(const FrontResult& front, const Outputs& outputs) {
+void writeFront(const StereoView& front, const Outputs& outputs) {
   const StereoIntrinsics& k = front.stereo.intrinsics;
   if (!outputs.disparity.empty())
     writeDisparity(outputs.disparity, front.stereo.disparity);
@@ -120,26 +121,46 @@ void writeFront(const FrontResult& front, const Outputs& outputs) {
   }
 }
 
+/** \brief Refuses what is for a single model. */
+void checkSequence(const ModelOptions& model, const Outputs& o) {
+  const bool files = !model.mesh.empty() || !model.grasp_points.empty() ||
+                     !model.snapshot.empty() || model.exported.any();
+  for (const std::string* output :
+       {&o.cloud, &o.object_cloud, &o.disparity, &o.panel, &o.mask, &o.histogram})
+    if (files || !output->empty())
+      throw UsageError("--sequence goes with -o alone; pictures, clouds, masks, meshes "
+                       "and exports are for one pair.");
+  if (model.output.empty())
+    claimOutput("--sequence", "-");
+}
+
 int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs) {
   chooseMatcher(model, front_options);
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
-  for (const std::string& input :
-       {front_options.left, front_options.right, front_options.depth, model.mask})
-    claimInput(input);
+  claimInput(model.mask);
+  if (!front_options.sequence)
+    for (const std::string& input :
+         {front_options.left, front_options.right, front_options.depth})
+      claimInput(input);
   for (const std::string& calibration : front_options.calib)
     claimInput(calibration);
   checkModelOptions(model);
   if (!front_options.depth.empty() && !outputs.disparity.empty())
     throw UsageError("a depth image has no disparity to write; leave out --disparity.");
   checkOutputs(outputs);
+  if (front_options.sequence) {
+    checkSequence(model, outputs);
+    return runSequence(front_options, model);
+  }
   StageLine line;
   model.estimation.progress = [&line](const std::string& stage, double share) {
     line.show(wordsFor(stage), share);
   };
   front_options.progress = model.estimation.progress;
-  const FrontResult front = runFront(front_options, model.roi);
+  std::optional<StereoPipeline> pipeline;
+  const StereoView front = runFront(front_options, model.roi, pipeline);
   line.clear();
   for (const std::string& sentence : front.notes)
     note(sentence);
@@ -177,9 +198,16 @@ int main(int argc, char** argv) {
       "  pcl_sq_stereo left.png right.png --calib left.yaml right.yaml -o model.json\n"
       "  pcl_sq_stereo left.png right.png --intrinsics 1310,1310,511.5,383.5 "
       "--baseline .12\n"
-      "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n",
+      "  pcl_sq_stereo color.png --depth depth.png --intrinsics 616,616,310,237\n"
+      "  pcl_sq_stereo --sequence 'left_*.png' 'right_*.png' --calib calib.yml "
+      "-o models.jsonl\n",
       [&](CLI::App& cli) {
         addFrontOptions(cli, front);
+        cli.add_flag("--sequence",
+                     front.sequence,
+                     "The images are patterns (in quotes) of frames that follow each "
+                     "other: one JSON line per frame; what fails has an \"error\". A "
+                     "hint is for the first frame, and others start from the last one");
         addOutputs(cli, outputs);
         addModelOptions(cli, model);
       },

@@ -28,7 +28,8 @@ function(pcl_sq_component name)
   set_target_properties(${target} PROPERTIES
     OUTPUT_NAME pcl_sq_${name} EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} # the ABI's promise
-    INSTALL_RPATH "$ORIGIN") # a component finds core beside it, whatever the prefix
+    # a component finds core and its plug-ins beside it, whatever the prefix
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/${PCL_SQ_PLUG_IN_DIR}")
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   foreach(library ${target} ${objects})
     target_compile_features(${library} PUBLIC cxx_std_17)
@@ -58,4 +59,31 @@ function(pcl_sq_component name)
   foreach(property FIND STATIC_LIBS PKGCONFIG DEBIAN RECOMMENDS)
     set_property(GLOBAL PROPERTY PCL_SQ_${name}_${property} "${ARG_${property}}")
   endforeach()
+endfunction()
+
+# pcl_sq_plug_in(NAME COMPONENT USERS targets... SOURCES ... LIBS ...)
+# What few runs of a shared library or a program need and takes long to load: a library
+# pcl_sq_NAME.so that USERS load on first use (src/util/plug_in.h), installed with
+# COMPONENT. Its objects are the target pcl_sq_NAME_objects, for tests.
+function(pcl_sq_plug_in name component)
+  cmake_parse_arguments(ARG "" "" "USERS;SOURCES;LIBS" ${ARGN})
+  set(objects pcl_sq_${name}_objects)
+  add_library(${objects} OBJECT ${ARG_SOURCES})
+  set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_definitions(${objects} PRIVATE PCL_SQ_BUILDING)
+  target_include_directories(${objects} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${objects} PUBLIC ${ARG_LIBS})
+  pcl_sq_warnings(${objects})
+  add_library(pcl_sq_${name} MODULE $<TARGET_OBJECTS:${objects}>)
+  set_target_properties(pcl_sq_${name} PROPERTIES PREFIX ""
+    LIBRARY_OUTPUT_DIRECTORY "${PCL_SQ_PLUG_IN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/..")
+  target_link_libraries(pcl_sq_${name} PRIVATE ${ARG_LIBS})
+  foreach(user ${ARG_USERS})
+    target_compile_definitions(${user} PRIVATE PCL_SQ_PLUG_INS)
+    add_dependencies(${user} pcl_sq_${name})
+  endforeach()
+  if(PCL_SQ_INSTALL)
+    install(TARGETS pcl_sq_${name} COMPONENT ${component}
+      LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${PCL_SQ_PLUG_IN_DIR}")
+  endif()
 endfunction()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/help_format.h"
 
+#include "command_line/option_lists.h"
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -14,7 +16,7 @@ constexpr std::size_t WIDTH = 79, COLUMN = 27; ///< of a line, of where the text
 
 struct Group {
   const char* title;
-  std::vector<const char*> options;
+  OptionList options;
 };
 
 /** \brief The groups in their order, with the options of all programs. */
@@ -40,28 +42,9 @@ const std::vector<Group>& groups() {
         "--border-filter"}},
       {"View and frame",
        {"--intrinsics", "--viewpoint", "--table", "--up", "--complete", "--one-sided"}},
-      {"Matching",
-       {"--matcher",
-        "--block-size",
-        "--min-depth",
-        "--max-depth",
-        "--uniqueness",
-        "--left-right",
-        "--refine",
-        "--wls"}},
+      {"Matching", MATCHING_OPTIONS},
       {"Fit", {"--preset", "--decomposition", "--parts", "--max-parts", "--taper"}},
-      {"Paper's chain",
-       {"--fit",
-        "--cost",
-        "--axis-assignment",
-        "--extents",
-        "--pca",
-        "--center",
-        "--voxel-percent",
-        "--voxel-size",
-        "--divisions",
-        "--run",
-        "--exclusive"}},
+      {"Paper's chain", PAPER_OPTIONS},
       {"Scene",
        {"--rig",
         "--distance",

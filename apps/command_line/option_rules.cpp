@@ -2,6 +2,7 @@
 #include "command_line/option_rules.h"
 
 #include "command_line/app.h"
+#include "command_line/option_lists.h"
 #include "files/files.h"
 
 #include <algorithm>
@@ -12,20 +13,7 @@ namespace {
 
 using Line = CommandLine;
 
-/** \brief Options that only the paper's chain has: naming one asks for that chain. */
-const std::vector<const char*> PAPER_OPTIONS = {"--fit",
-                                                "--cost",
-                                                "--axis-assignment",
-                                                "--extents",
-                                                "--pca",
-                                                "--center",
-                                                "--voxel-percent",
-                                                "--voxel-size",
-                                                "--divisions",
-                                                "--run",
-                                                "--exclusive"};
-
-bool isAny(const Line& line, const std::vector<const char*>& options) {
+bool isAny(const Line& line, const OptionList& options) {
   return std::any_of(options.begin(), options.end(), [&line](const char* option) {
     return line.given(option);
   });
@@ -43,8 +31,18 @@ bool fitsACloud(const Line& line) {
   return extensionOf(line.value("input")) != ".json";
 }
 
-bool hasHint(const Line& line) {
-  return isAny(line, {"--roi", "--click", "--color"});
+bool inParts(const Line& line) {
+  return decompositionOf(line) == "parts";
+}
+
+/** \brief Where one of the options is given. */
+std::function<bool(const Line&)> with(OptionList options) {
+  return [options](const Line& line) { return isAny(line, options); };
+}
+
+/** \brief Where none of the options is given. */
+std::function<bool(const Line&)> without(OptionList options) {
+  return [options](const Line& line) { return !isAny(line, options); };
 }
 
 } // namespace
@@ -83,6 +81,15 @@ std::string decompositionOf(const CommandLine& line) {
 }
 
 const std::vector<OptionRule>& optionRules() {
+  const std::string fit = "pcl_sq_fit", stereo = "pcl_sq_stereo",
+                    scene = "pcl_sq_scene", grasp = "pcl_sq_grasp",
+                    snapshot = "pcl_sq_snapshot", evaluate = "pcl_sq_evaluate",
+                    render = "pcl_sq_render";
+  const char* const one_hint = "give one hint: --roi, --click or --color";
+  const char* const mask_says =
+      "--mask says already which pixels are the object: give one of them";
+  const char* const one_size =
+      "give one of --voxel-size, --voxel-percent and --divisions";
   static const std::vector<OptionRule> rules = {
       // the paper's chain and the best mode
       {{},
@@ -91,7 +98,7 @@ const std::vector<OptionRule>& optionRules() {
        "it belongs to the paper's chain: leave out --preset best"},
       {{},
        PAPER_OPTIONS,
-       [](const Line& l) { return decompositionOf(l) != "parts"; },
+       [](const Line& l) { return !inParts(l); },
        "it belongs to the paper's chain: leave out --decomposition parts"},
       {{},
        {"--decomposition"},
@@ -108,159 +115,101 @@ const std::vector<OptionRule>& optionRules() {
        {"--voxel-percent", "--voxel-size", "--divisions", "--run", "--exclusive"},
        [](const Line& l) { return decompositionOf(l) == "prisms"; },
        "it goes with --decomposition prisms"},
-      {{},
-       {"--voxel-size"},
-       [](const Line& l) {
-         return !isAny(l, {"--voxel-percent", "--divisions"});
-       },
-       "give one of --voxel-size, --voxel-percent and --divisions"},
-      {{},
-       {"--voxel-percent"},
-       [](const Line& l) { return !l.given("--divisions"); },
-       "give one of --voxel-size, --voxel-percent and --divisions"},
-      {{"pcl_sq_fit", "pcl_sq_stereo"},
+      {{}, {"--voxel-size"}, without({"--voxel-percent", "--divisions"}), one_size},
+      {{}, {"--voxel-percent"}, without({"--divisions"}), one_size},
+      {{fit, stereo},
        {"--parts", "--max-parts"},
-       [](const Line& l) { return decompositionOf(l) == "parts"; },
+       inParts,
        "it goes with --decomposition parts and without the paper's options"},
       {{},
        {"--max-parts"},
        [](const Line& l) { return !l.given("--parts") || l.value("--parts") == "0"; },
        "it goes with --parts 0, where their number is looked for"},
       // what the object is
-      {{"pcl_sq_fit"},
+      {{fit},
        {"--mask"},
-       [](const Line& l) { return decompositionOf(l) == "parts"; },
+       inParts,
        "it goes with --preset best; the paper's chain takes --roi or --box"},
-      {{"pcl_sq_fit", "pcl_sq_grasp"},
+      {{fit, grasp},
        {"--roi", "--box", "--remove-plane"},
-       [](const Line& l) { return !l.given("--mask"); },
-       "--mask says already which pixels are the object: give one of them"},
+       without({"--mask"}),
+       mask_says},
       {{},
        {"--box"},
        [](const Line& l) { return !l.given("--roi") || !l.given("--remove-plane"); },
        "with --remove-plane, --roi says already where the thing is: give one of them"},
-      {{"pcl_sq_fit"},
-       {"--intrinsics"},
-       [](const Line& l) { return decompositionOf(l) == "parts"; },
-       "it goes with --preset best"},
-      {{"pcl_sq_fit"},
+      {{fit},
        {"--complete"},
-       [](const Line& l) {
-         return !isAny(
-             l, {"--one-sided", "--viewpoint", "--mask", "--roi", "--intrinsics"});
-       },
+       without({"--one-sided", "--viewpoint", "--mask", "--roi", "--intrinsics"}),
        "a cloud from all round has no camera: leave out --one-sided, --viewpoint, "
        "--mask, --roi and --intrinsics"},
-      {{"pcl_sq_fit"},
-       {"--complete", "--one-sided"},
-       [](const Line& l) { return decompositionOf(l) == "parts"; },
+      {{fit},
+       {"--intrinsics", "--complete", "--one-sided"},
+       inParts,
        "it goes with --preset best"},
-      {{"pcl_sq_stereo"},
-       {"--click"},
-       [](const Line& l) { return !l.given("--roi"); },
-       "give one hint: --roi, --click or --color"},
-      {{"pcl_sq_stereo"},
-       {"--color"},
-       [](const Line& l) {
-         return !isAny(l, {"--roi", "--click"});
-       },
-       "give one hint: --roi, --click or --color"},
-      {{"pcl_sq_stereo"},
-       {"--roi", "--click", "--color"},
-       [](const Line& l) { return !l.given("--mask"); },
-       "--mask says already which pixels are the object: give one of them"},
-      {{"pcl_sq_stereo"},
+      {{stereo}, {"--click"}, without({"--roi"}), one_hint},
+      {{stereo}, {"--color"}, without({"--roi", "--click"}), one_hint},
+      {{stereo}, {"--roi", "--click", "--color"}, without({"--mask"}), mask_says},
+      {{stereo},
        {"--segment"},
        [](const Line& l) {
-         return l.value("--segment") != "color" || hasHint(l) || l.given("--mask");
+         return l.value("--segment") != "color" ||
+                isAny(l, {"--roi", "--click", "--color", "--mask"});
        },
        "color goes with a hint: --roi, --click or --color"},
-      {{"pcl_sq_stereo"},
+      {{stereo},
        {"--remove-plane"},
        [](const Line& l) { return l.value("--segment") == "none"; },
        "it goes with --segment none; the outline leaves the table out already"},
-      {{"pcl_sq_stereo"},
+      {{stereo},
        {"--box"},
-       [](const Line& l) {
-         return decompositionOf(l) != "parts" || l.value("--segment") == "none";
-       },
+       [](const Line& l) { return !inParts(l) || l.value("--segment") == "none"; },
        "it goes with --preset paper or --segment none; the best mode takes the "
        "outline"},
-      {{"pcl_sq_stereo"},
+      {{stereo},
        {"--border-filter"},
        [](const Line& l) {
-         return decompositionOf(l) != "parts" ||
-                isAny(l, {"--object-cloud", "--panel"});
+         return !inParts(l) || isAny(l, {"--object-cloud", "--panel"});
        },
        "it goes with --preset paper, or with --object-cloud or --panel"},
-      {{"pcl_sq_stereo"},
+      {{stereo},
        {"--write-mask"},
        [](const Line& l) { return l.value("--segment") != "none"; },
        "--segment none finds no outline to write"},
       // pairs and depth images
-      {{"pcl_sq_stereo"},
-       {"--matcher",
-        "--block-size",
-        "--min-depth",
-        "--max-depth",
-        "--uniqueness",
-        "--left-right",
-        "--refine",
-        "--wls",
-        "--calib",
-        "--calib-unit",
-        "--baseline",
-        "--disparity"},
-       [](const Line& l) { return !l.given("--depth"); },
+      {{stereo},
+       MATCHING_OPTIONS,
+       without({"--depth"}),
        "it goes with a pair of images: a depth image has its depths already"},
-      {{"pcl_sq_stereo"},
-       {"--depth-scale"},
-       [](const Line& l) { return l.given("--depth"); },
-       "it goes with --depth"},
-      {{"pcl_sq_stereo"},
-       {"--calib-unit"},
-       [](const Line& l) { return l.given("--calib"); },
-       "it goes with --calib"},
-      // scenes
-      {{"pcl_sq_scene"},
-       {"--matcher",
-        "--block-size",
-        "--min-depth",
-        "--max-depth",
-        "--uniqueness",
-        "--left-right",
-        "--refine",
-        "--wls",
-        "--calib",
-        "--baseline"},
-       [](const Line& l) { return l.given("right"); },
+      {{stereo},
+       {"--calib", "--calib-unit", "--baseline", "--disparity"},
+       without({"--depth"}),
+       "it goes with a pair of images: a depth image has its depths already"},
+      {{scene}, MATCHING_OPTIONS, with({"right"}), "it goes with a pair of images"},
+      {{scene},
+       {"--calib", "--baseline"},
+       with({"right"}),
        "it goes with a pair of images"},
-      {{"pcl_sq_scene"},
+      {{scene},
        {"--unit"},
-       [](const Line& l) { return !l.given("right") && !l.given("--depth"); },
+       without({"right", "--depth"}),
        "it goes with a point cloud; images have --calib-unit and --depth-scale"},
-      {{"pcl_sq_scene"},
-       {"--calib-unit"},
-       [](const Line& l) { return l.given("--calib"); },
-       "it goes with --calib"},
-      {{"pcl_sq_scene"},
-       {"--depth-scale"},
-       [](const Line& l) { return l.given("--depth"); },
-       "it goes with --depth"},
+      {{stereo, scene}, {"--depth-scale"}, with({"--depth"}), "it goes with --depth"},
+      {{stereo, scene}, {"--calib-unit"}, with({"--calib"}), "it goes with --calib"},
       // grasps
-      {{"pcl_sq_fit"},
+      {{fit},
        {"--gripper", "--friction", "--clearance", "--min-observed"},
        [](const Line& l) { return l.given("--grasps") && l.value("--grasps") != "0"; },
        "it goes with --grasps N"},
       {{},
        {"--grasp-threshold"},
-       [](const Line& l) { return l.given("--grasp-points"); },
+       with({"--grasp-points"}),
        "it goes with --grasp-points FILE"},
-      {{"pcl_sq_grasp"},
+      {{grasp},
        {"--graspit-parts", "--graspit-name"},
-       [](const Line& l) { return l.given("--graspit"); },
+       with({"--graspit"}),
        "it goes with --graspit DIR"},
-      {{"pcl_sq_grasp"},
+      {{grasp},
        {"--preset",
         "--parts",
         "--max-parts",
@@ -271,48 +220,31 @@ const std::vector<OptionRule>& optionRules() {
         "--threads"},
        fitsACloud,
        "the input is a model already; it goes with a point cloud"},
-      {{"pcl_sq_grasp"},
+      {{grasp},
        {"--cloud"},
        [](const Line& l) { return !fitsACloud(l); },
        "it goes with a model file; the input is a cloud itself"},
       // pictures, scenes and figures
-      {{"pcl_sq_snapshot"},
-       {"--opacity"},
-       [](const Line& l) { return l.given("model"); },
-       "it goes with a model"},
-      {{"pcl_sq_snapshot"},
-       {"--point-size"},
-       [](const Line& l) { return l.given("--cloud"); },
-       "it goes with --cloud"},
-      {{"pcl_sq_snapshot"},
+      {{snapshot}, {"--opacity"}, with({"model"}), "it goes with a model"},
+      {{snapshot}, {"--point-size"}, with({"--cloud"}), "it goes with --cloud"},
+      {{snapshot},
        {"--context"},
        [](const Line& l) { return l.given("--cloud") && l.given("model"); },
        "it goes with a model and --cloud"},
-      {{"pcl_sq_evaluate"},
-       {"--pose", "--symmetry"},
-       [](const Line& l) { return l.given("--mesh"); },
-       "it goes with --mesh"},
-      {{"pcl_sq_evaluate"},
-       {"--mesh"},
-       [](const Line& l) { return !l.given("--truth"); },
-       "give one of --mesh and --truth"},
-      {{"pcl_sq_evaluate"},
+      {{evaluate}, {"--pose", "--symmetry"}, with({"--mesh"}), "it goes with --mesh"},
+      {{evaluate}, {"--mesh"}, without({"--truth"}), "give one of --mesh and --truth"},
+      {{evaluate},
        {"--samples"},
-       [](const Line& l) {
-         return isAny(l, {"--truth", "--mesh"});
-       },
+       with({"--truth", "--mesh"}),
        "it goes with --truth or --mesh"},
-      {{"pcl_sq_render"},
-       {"--mesh-up", "--mesh-unit"},
-       [](const Line& l) { return l.given("--mesh"); },
-       "it goes with --mesh"},
-      {{"pcl_sq_render"},
+      {{render}, {"--mesh-up", "--mesh-unit"}, with({"--mesh"}), "it goes with --mesh"},
+      {{render},
        {"--mesh"},
-       [](const Line& l) { return !l.given("scene"); },
+       without({"scene"}),
        "give a scene or --mesh FILE, not both"},
       {{"pcl_sq_calibrate"},
        {"--list"},
-       [](const Line& l) { return !l.given("images"); },
+       without({"images"}),
        "give the images or --list, not both"}};
   return rules;
 }

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,9 @@ private:
 
 /** \brief Options that have an effect under a condition only. */
 struct OptionRule {
-  std::vector<const char*> programs; ///< that it is about; empty: all that have them
+  std::vector<std::string> programs; ///< that it is about; empty: all that have them
   std::vector<const char*> options;
-  bool (*holds)(const CommandLine&);
+  std::function<bool(const CommandLine&)> holds;
   const char*
       cure; ///< "it goes with ...": what to do where the condition does not hold
 };

@@ -3,10 +3,11 @@
 #include "files/cloud_bytes.h"
 
 #include "command_line/app.h"
+#include "files/pcd_codec.h"
 
-#include <pcl/io/pcd_io.h>
-
-#include <sstream>
+#ifdef PCL_SQ_PLUG_INS
+#include "util/plug_in.h"
+#endif
 
 namespace pcl_sq::app {
 
@@ -21,14 +22,26 @@ void append(std::string& bytes, Number number) {
 
 } // namespace
 
+const PcdCodec& pcdCodec() {
+#ifdef PCL_SQ_PLUG_INS
+  std::string why;
+  auto* codec =
+      detail::functionOf<const PcdCodec*()>("pcl_sq_pcd.so", "pcl_sq_pcd_codec", &why);
+  if (codec == nullptr)
+    throw Failure(why + ".");
+  return *codec();
+#else
+  return *pcl_sq_pcd_codec();
+#endif
+}
+
 std::string pcdBytes(const pcl::PCLPointCloud2& cloud,
                      const Eigen::Vector4f& origin,
                      const Eigen::Quaternionf& orientation) {
-  std::ostringstream out;
-  if (pcl::PCDWriter().writeBinaryCompressed(out, cloud, origin, orientation) != 0 ||
-      !out)
+  std::string bytes = pcdCodec().pack(cloud, origin, orientation);
+  if (bytes.empty())
     throw Failure("the cloud is too large for a PCD file; crop or thin it first.");
-  return out.str();
+  return bytes;
 }
 
 std::string plyBytes(const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {

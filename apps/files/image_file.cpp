@@ -4,46 +4,32 @@
 
 #include "command_line/app.h"
 #include "files/files.h"
+#include "files/image_codecs.h"
 #include "files/image_header.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
+#ifdef PCL_SQ_PLUG_INS
+#include "util/plug_in.h"
+#endif
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include <vector>
 
 namespace pcl_sq::app {
-namespace {
 
-/** \brief Keeps what the decoders would print away from the user: the programs say it
- * themselves, in one sentence. */
-class SilentDecoders {
-public:
-  SilentDecoders() : kept_(dup(STDERR_FILENO)) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0)
-      dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0)
-      close(nowhere);
-  }
-  ~SilentDecoders() {
-    if (kept_ >= 0) {
-      dup2(kept_, STDERR_FILENO);
-      close(kept_);
-    }
-  }
-  SilentDecoders(const SilentDecoders&) = delete;
-  SilentDecoders& operator=(const SilentDecoders&) = delete;
-
-private:
-  int kept_;
-};
-
-} // namespace
+const ImageCodecs& imageCodecs() {
+#ifdef PCL_SQ_PLUG_INS
+  std::string why;
+  auto* codecs = detail::functionOf<const ImageCodecs*()>(
+      "pcl_sq_images.so", "pcl_sq_image_codecs", &why);
+  if (codecs == nullptr)
+    throw Failure(why + ".");
+  return *codecs();
+#else
+  return *pcl_sq_image_codecs();
+#endif
+}
 
 cv::Mat readImage(const std::string& path, int flags) {
   return decodeImage(readFile(path), path, flags);
@@ -65,19 +51,7 @@ cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags
     refuse("says it has " + std::to_string(header.width) + " x " +
            std::to_string(header.height) +
            " px; 1 x 1 to 64 megapixels can be read: make it smaller.");
-  cv::Mat image;
-  {
-    const SilentDecoders silent;
-    try {
-      const cv::Mat data(1,
-                         static_cast<int>(bytes.size()),
-                         CV_8U,
-                         const_cast<char*>(bytes.data())); // only read
-      image = cv::imdecode(data, flags);
-    } catch (const cv::Exception&) {
-      image.release();
-    }
-  }
+  cv::Mat image = imageCodecs().decode(bytes, flags);
   if (image.empty())
     refuse(
         "cannot be decoded; it is damaged, or of a rare kind: write it again as PNG.");
@@ -100,7 +74,7 @@ void claimImage(const std::string& option, const std::string& path) {
   if (path.empty())
     return;
   const std::string format = formatOf(path, ".png");
-  if (format.size() < 2 || !cv::haveImageWriter("image" + format))
+  if (format.size() < 2 || !imageCodecs().canWrite(format))
     throw UsageError(option + ": '" + path +
                      "' does not end like a picture; use .png.");
   claimOutput(option, path);
@@ -108,12 +82,7 @@ void claimImage(const std::string& option, const std::string& path) {
 
 void writeImage(const std::string& path, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  bool done = false;
-  try {
-    done = cv::imencode(formatOf(path, ".png"), image, bytes);
-  } catch (const cv::Exception&) { // the sentence below tells more
-  }
-  if (!done)
+  if (!imageCodecs().encode(formatOf(path, ".png"), image, bytes))
     throw Failure("'" + path +
                   "' is of a format that cannot hold this picture; use "
                   ".png.");

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCD: text, binary and compressed, versions .5 to .7.
 #include "command_line/app.h"
+#include "files/pcd_codec.h"
 #include "input/pcd_header.h"
 #include "input/shape.h"
 #include "report/text.h"
-
-#include <pcl/io/lzf.h>
 
 #include <cmath>
 #include <cstring>
@@ -111,7 +110,7 @@ private:
                     " points that the header promises; it is truncated or corrupt");
     std::unique_ptr<char[]> data(new char[unpacked + 1]);
     if (unpacked > 0 &&
-        pcl::lzfDecompress(body.data() + 8, packed, data.get(), unpacked) != unpacked)
+        pcdCodec().unpack(body.data() + 8, packed, data.get(), unpacked) != unpacked)
       throw Failure("its compressed data are corrupt");
     return data;
   }

@@ -24,7 +24,7 @@ struct Selection {
 };
 
 pcl::IndicesPtr pointsInImage(const pcl::PointCloud<Point>& cloud,
-                              const PixelRect& rect) {
+                              const CellRect& rect) {
   auto indices = pcl::make_shared<pcl::Indices>();
   for (int y = std::max(rect.y, 0);
        y < std::min(rect.y + rect.height, int(cloud.height));
@@ -56,7 +56,7 @@ pcl::IndicesPtr pointsInBox(const pcl::PointCloud<Point>& cloud, const RoiBox& b
  * camera's axis, whatever frame the cloud is in. */
 bool openAperture(const LoadedCloud& input,
                   const ModelOptions& options,
-                  const PixelRect& rect,
+                  const CellRect& rect,
                   Selection& selection) {
   RoiEstimator<Point> estimator;
   estimator.setRect(rect);
@@ -94,7 +94,7 @@ bool openAperture(const LoadedCloud& input,
 Selection chooseObject(const LoadedCloud& input, const ModelOptions& options) {
   const auto& cloud = *input.cloud;
   Selection selection;
-  PixelRect rect;
+  CellRect rect;
   if (!options.roi.empty()) {
     rect = {options.roi[0], options.roi[1], options.roi[2], options.roi[3]};
     if (!cloud.isOrganized())

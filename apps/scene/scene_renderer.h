@@ -43,7 +43,7 @@ struct RenderedTruth {
   int width = 0, height = 0;
   std::vector<float> depth;       ///< z in the camera's frame [m], infinity = nothing
   std::vector<std::uint8_t> mask; ///< 255 = object
-  PixelRect roi;                  ///< box of the mask
+  CellRect roi;                   ///< box of the mask
   std::size_t visible_pixels = 0; ///< of the mask
 };
 

@@ -20,7 +20,7 @@ struct SceneTruth {
   std::string mesh;        ///< file beside the truth, in the object's frame
   MultiSuperquadric parts; ///< in the camera's frame, where the object is one; or empty
   Eigen::Vector4d table = Eigen::Vector4d::Zero(); ///< n.p + d = 0, n upwards
-  PixelRect roi;
+  CellRect roi;
   std::size_t visible_pixels = 0;
 };
 

@@ -9,18 +9,10 @@ namespace pcl_sq::app {
 
 /** \brief Takes the points under the object's mask that lie far from its box out of a
  * scene: false matches along the outline, with the depth of what is behind. */
-void dropStrays(const FrontResult& front, LoadedCloud& scene);
+void dropStrays(const StereoView& front, LoadedCloud& scene);
 
 /** \brief Tells the model half what the images gave. The best mode looks at the whole
  * scene through the outline, the paper's chain at the object's points in their box. */
-void handOver(const FrontResult& front, bool whole_scene, ModelOptions& model);
-
-/** \brief Refuses a model that leaves doubt where nobody pointed at the object: what
- * was taken for one may be none. */
-void requireNoDoubt(const ModelResult& result);
-
-/** \brief Refuses what fills but a piece of the box that was drawn around the object,
- * where no outline tells them apart. */
-void requireBoxFilled(const FrontResult& front, const ModelResult& result);
+void handOver(const StereoView& front, bool whole_scene, ModelOptions& model);
 
 } // namespace pcl_sq::app

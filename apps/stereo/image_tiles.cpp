@@ -21,7 +21,7 @@ struct Window {
   cv::Point offset;   ///< of the window in the tile [px]
 
   /** \brief The window around the query with the tile's proportions. */
-  Window(const PixelRect& rect, const cv::Size& image, const cv::Size& tile) {
+  Window(const CellRect& rect, const cv::Size& image, const cv::Size& tile) {
     const double height =
         std::max(1.35 * rect.height, 1.35 * rect.width * tile.height / tile.width);
     source.width =

@@ -11,9 +11,9 @@ namespace pcl_sq::app {
 
 /** \brief What the panel shows. */
 struct PanelInput {
-  cv::Mat image;  ///< rectified left image, BGR
-  cv::Mat mask;   ///< of the object; empty if only a box is known
-  PixelRect rect; ///< 2D query
+  cv::Mat image; ///< rectified left image, BGR
+  cv::Mat mask;  ///< of the object; empty if only a box is known
+  CellRect rect; ///< 2D query
   DepthHistogram histogram;
   double disparity_scale = 0.0; ///< focal length times baseline [px m]
   PinholeCamera camera;         ///< of the image

@@ -30,19 +30,4 @@ LoadedCloud toLoadedCloud(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
   return result;
 }
 
-void tellNoise(const StereoResult& stereo, ViewOptions& view) {
-  if (stereo.disparity_sigma.empty())
-    return;
-  view.correlation = stereo.correlation;
-  const double per_pixel = 1.0 / (stereo.intrinsics.fx * stereo.intrinsics.baseline);
-  const auto* sigma = stereo.disparity_sigma.ptr<float>();
-  view.noise.resize(static_cast<Eigen::Index>(stereo.cloud->size()));
-  for (Eigen::Index i = 0; i < view.noise.size(); ++i) {
-    const auto z = double((*stereo.cloud)[static_cast<std::size_t>(i)].z);
-    view.noise[i] = std::isfinite(z)
-                        ? static_cast<float>(z * z * per_pixel * double(sigma[i]))
-                        : 1.0F;
-  }
-}
-
 } // namespace pcl_sq::app

@@ -14,7 +14,4 @@ namespace pcl_sq::app {
 LoadedCloud toLoadedCloud(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                           const pcl::Indices* keep);
 
-/** \brief The pair's own noise as that of its points: Z^2 / (f b) a pixel. */
-void tellNoise(const StereoResult& stereo, ViewOptions& view);
-
 } // namespace pcl_sq::app

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/depth_histogram.h"
-#include "pcl_sq/progress.h"
-#include "pcl_sq/roi.h"
-#include "pcl_sq/stereo/object_segmenter.h"
-#include "pcl_sq/stereo/stereo_reprojector.h"
+#include "pcl_sq/stereo/stereo_pipeline.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,19 +28,8 @@ struct FrontOptions {
   std::vector<int> click, color;  ///< hints: pixel; red, green, blue
   std::string mask;               ///< mask image instead of a segmentation
   bool border_filter = false;
+  bool sequence = false;     ///< whether the images are patterns of frames that follow
   ProgressCallback progress; ///< is told the stages
-};
-
-/** \brief The object's points and where they come from. */
-struct FrontResult {
-  StereoResult stereo;
-  Segment segment; ///< its mask is empty if only a box is known
-  PixelRect rect;  ///< 2D query
-  DepthHistogram histogram;
-  RoiBox region;                  ///< 3D query
-  pcl::Indices object;            ///< points of the object in the stereo cloud
-  std::vector<std::string> notes; ///< what was assumed of the files, in sentences
-  std::vector<std::pair<std::string, double>> timings_ms;
 };
 
 /** \brief Adds the options to a program, but for those it shares with the model half:
@@ -58,11 +43,20 @@ void checkFrontOptions(const FrontOptions& options, const std::vector<int>& roi)
 /** \brief The same for addPairOptions(). \throw UsageError */
 void checkPairOptions(const FrontOptions& options);
 
+/** \brief The pipeline that the options ask for. \param[in] roi box in the image: x, y,
+ * w, h, or empty \param[in] size of the images [px] \throw Failure */
+StereoPipeline makePipeline(const FrontOptions& options,
+                            const std::vector<int>& roi,
+                            const cv::Size& size);
+
 /** \brief From the images to the cloud; there is no object yet. \throw Failure */
-FrontResult readViews(const FrontOptions& options);
+StereoView readViews(const FrontOptions& options);
 
 /** \brief From the images to the object's points.
- * \param[in] roi box in the image: x, y, w, h, or empty \throw Failure */
-FrontResult runFront(const FrontOptions& options, const std::vector<int>& roi);
+ * \param[in,out] pipeline that of the frame before, or none: one is made
+ * \param[in] roi as above \throw Failure */
+StereoView runFront(const FrontOptions& options,
+                    const std::vector<int>& roi,
+                    std::optional<StereoPipeline>& pipeline);
 
 } // namespace pcl_sq::app

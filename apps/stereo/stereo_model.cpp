@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo/stereo_model.h"
 
+#include "command_line/app.h"
 #include "stereo/hand_over.h"
 #include "stereo/stereo_cloud.h"
 
@@ -16,7 +17,7 @@ bool isBest(const ModelOptions& model) {
 }
 
 /** \brief Adds what the front half did to the model file. */
-void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& file) {
+void describeFront(const FrontOptions& o, const StereoView& front, ModelFile& file) {
   std::vector<std::pair<std::string, double>> timings = front.timings_ms;
   double total = 0.0;
   for (const auto& stage : file.timings_ms)
@@ -27,7 +28,7 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
   timings.emplace_back("total", total);
   file.timings_ms = timings;
   nlohmann::ordered_json extra = nlohmann::ordered_json::parse(file.extra_json);
-  const PixelRect& r = front.rect;
+  const CellRect &r = front.rect, &window = front.stereo.window;
   extra["stereo"] = {
       {"matcher",
        !o.depth.empty()                          ? "depth image"
@@ -36,15 +37,15 @@ void describeFront(const FrontOptions& o, const FrontResult& front, ModelFile& f
       {"refined", o.depth.empty() && o.stereo.refine},
       {"wls", o.stereo.wls},
       {"coverage", front.stereo.coverage},
-      {"roi", {r.x, r.y, r.width, r.height}},
+      {"roi", {window.x + r.x, window.y + r.y, r.width, r.height}},
       {"segmented", !front.segment.mask.empty()},
       {"aperture",
        {{"near", front.histogram.nearDepth()}, {"far", front.histogram.farDepth()}}},
       {"camera",
        {{"fx", front.stereo.intrinsics.fx},
         {"fy", front.stereo.intrinsics.fy},
-        {"cx", front.stereo.intrinsics.cx},
-        {"cy", front.stereo.intrinsics.cy},
+        {"cx", front.stereo.intrinsics.cx + window.x},
+        {"cy", front.stereo.intrinsics.cy + window.y},
         {"baseline", front.stereo.intrinsics.baseline}}}};
   if (!front.notes.empty())
     extra["stereo"]["notes"] = front.notes;
@@ -62,7 +63,7 @@ void chooseMatcher(const ModelOptions& model, FrontOptions& front) {
 }
 
 StereoModel makeStereoModel(const FrontOptions& options,
-                            const FrontResult& front,
+                            const StereoView& front,
                             ModelOptions model) {
   const bool best = isBest(model);
   const bool hinted = !model.roi.empty() || !model.mask.empty() || !model.box.empty() ||
@@ -75,10 +76,9 @@ StereoModel makeStereoModel(const FrontOptions& options,
     dropStrays(front, made.scene);
   const std::string input = options.left.empty() ? options.depth : options.left;
   made.result = makeModel(best ? made.scene : made.object, input, model, 0.0);
-  if (best)
-    requireBoxFilled(front, made.result);
-  if (best && !hinted)
-    requireNoDoubt(made.result);
+  if (const std::string why = doubtAbout(front, made.result.report, hinted);
+      best && !why.empty())
+    throw Failure(why);
   describeFront(options, front, made.result.file);
   return made;
 }

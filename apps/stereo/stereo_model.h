@@ -22,7 +22,7 @@ void chooseMatcher(const ModelOptions& model, FrontOptions& front);
  * the paper's chain at the object's points in their box.
  * \throw Failure if there is no model */
 StereoModel makeStereoModel(const FrontOptions& options,
-                            const FrontResult& front,
+                            const StereoView& front,
                             ModelOptions model);
 
 } // namespace pcl_sq::app

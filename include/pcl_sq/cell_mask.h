@@ -10,14 +10,17 @@
 
 namespace pcl_sq {
 
-/** \brief Rectangle of grid cells, x to the right and y down as in an image. */
+/** \brief Rectangle of grid cells or pixels, x to the right and y down as in an image.
+ */
 struct CellRect {
   int x = 0, y = 0;          ///< leftmost column, topmost row
   int width = 0, height = 0; ///< [cells]
 
   int area() const { return width * height; }
+  bool empty() const { return width <= 0 || height <= 0; }
   bool contains(int column, int row) const {
-    return column >= x && column < x + width && row >= y && row < y + height;
+    return column >= x && row >= y && static_cast<long long>(column) - x < width &&
+           static_cast<long long>(row) - y < height;
   }
   bool operator==(const CellRect& o) const {
     return x == o.x && y == o.y && width == o.width && height == o.height;

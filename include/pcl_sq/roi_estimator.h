@@ -37,8 +37,8 @@ public:
 
   /** \brief Sets the 2D region; the cloud must then be organized. It may reach over the
    * image's border. An empty one (default) stands for the whole cloud. */
-  void setRect(const PixelRect& rect) { rect_ = rect; }
-  const PixelRect& getRect() const { return rect_; }
+  void setRect(const CellRect& rect) { rect_ = rect; }
+  const CellRect& getRect() const { return rect_; }
   /** \brief Sets the options of the histogram; kept as they were if not valid. */
   void setHistogramOptions(const DepthHistogramOptions& options);
   const DepthHistogramOptions& getHistogramOptions() const { return options_; }
@@ -67,7 +67,7 @@ private:
   bool findBox(const pcl::Indices& points, RoiBox& region, std::string& why) const;
   bool findSidesAtMedianDepth(RoiBox& region, std::string& why) const;
 
-  PixelRect rect_;
+  CellRect rect_;
   DepthHistogramOptions options_;
   RoiExtent extent_ = RoiExtent::POINTS;
   DepthHistogram histogram_;

@@ -90,7 +90,7 @@ py::tuple estimate(const std::optional<py::array>& left,
   take(mask, "mask", front.mask_image, mask_name);
   if (!front.mask_image.empty())
     front.mask_image = front.mask_image > 0;
-  app::FrontResult seen;
+  StereoView seen;
   const app::StereoModel made = guarded([&] {
     app::parseWords(
         "pcl_sq_stereo",
@@ -108,7 +108,8 @@ py::tuple estimate(const std::optional<py::array>& left,
     app::chooseMatcher(model, front);
     app::checkFrontOptions(front, model.roi);
     app::checkModelOptions(model);
-    seen = app::runFront(front, model.roi);
+    std::optional<StereoPipeline> pipeline;
+    seen = app::runFront(front, model.roi, pipeline);
     return app::makeStereoModel(front, seen, model);
   });
   const auto& cloud = *seen.stereo.cloud;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "families/bent_problem.h"
 
-#include "families/robust_cost.h"
+#include "families/family_step.h"
 #include "geometry/bend.h"
 
 #include <algorithm>
@@ -51,13 +51,7 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
                              -gradient.dot(bendVelocity(s, foot.unbent)) /
                                  std::max(gradient.norm(), 1e-300));
     const double q = precision ? double(precision[i]) : 1.0;
-    const double square = q * body.value * body.value;
-    double share;
-    e.cost += density.cost(square, share);
-    e.share += share;
-    e.weighted += share * square;
-    e.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row, share * q);
-    e.jtr += share * q * body.value * row;
+    addPoint(density, q, body.value, row, e);
   }
   e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
   e.points_cost = e.cost;
@@ -78,28 +72,14 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
 Superquadric
 BentProblem::moved(const Superquadric& m, const Vector& step, bool& limited) const {
   Vector s = step;
-  limited = false;
-  const auto shorten = [&](int begin, int size, double trust) {
-    double largest = 0.0;
-    for (int k = begin; k < begin + size; ++k)
-      largest = std::max(largest, std::abs(s[k]));
-    if (!(largest > trust))
-      return;
-    for (int k = begin; k < begin + size; ++k)
-      s[k] *= trust / largest;
-    limited = true;
-  };
-  shorten(0, 3, TRUST * m.semi_axes.maxCoeff());
-  shorten(3, 3, TRUST);
-  shorten(6, 3, TRUST);
-  shorten(9, 1, TRUST);
-  shorten(10, 1, TRUST / m.semi_axes.z());
+  limited = shorten({{0, 3, TRUST * m.semi_axes.maxCoeff()},
+                     {3, 3, TRUST},
+                     {6, 3, TRUST},
+                     {9, 1, TRUST},
+                     {10, 1, TRUST / m.semi_axes.z()}},
+                    s);
   Superquadric next = m;
-  next.center += m.rotation * s.head<3>();
-  const Eigen::Vector3d turn = s.segment<3>(3);
-  if (turn.norm() > 0.0)
-    next.rotation *=
-        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  moveRigidly(s.head<3>(), s.segment<3>(3), next);
   for (int k = 0; k < 3; ++k)
     next.semi_axes[k] = std::clamp(
         m.semi_axes[k] * std::exp(s[6 + k]), limits_.min_axis, limits_.max_axis);
@@ -112,30 +92,23 @@ BentProblem::moved(const Superquadric& m, const Vector& step, bool& limited) con
 }
 
 bool BentProblem::isActiveBound(const Superquadric& m, const Vector& direction) const {
-  const auto out = [](double value, double low, double high, double d) {
-    return (value <= low && d < 0.0) || (value >= high && d > 0.0);
-  };
   for (int k = 0; k < 3; ++k)
-    if (out(m.semi_axes[k], limits_.min_axis, limits_.max_axis, direction[6 + k]))
+    if (leaves(m.semi_axes[k], limits_.min_axis, limits_.max_axis, direction[6 + k]))
       return true;
   const double most = mostBent(m);
-  return out(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[9]) ||
-         out(m.bend, -most, most, direction[10]);
+  return leaves(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[9]) ||
+         leaves(m.bend, -most, most, direction[10]);
 }
 
 Basis<BentProblem::N> bentBasis(bool round, bool held) {
   constexpr int N = BentProblem::N;
-  Basis<N> basis = Basis<N>::Zero(N, N);
-  int columns = 0;
-  for (int k = 0; k < N; ++k) {
-    if ((held && (k == 3 || k == 5)) || (round && k == 7))
-      continue;
-    basis(k, columns) = 1.0;
-    if (round && k == 6)
-      basis(7, columns) = 1.0;
-    ++columns;
-  }
-  return basis.leftCols(columns);
+  Basis<N> basis = round && held ? basisWithout<N>({3, 5, 7})
+                   : round       ? basisWithout<N>({7})
+                   : held        ? basisWithout<N>({3, 5})
+                                 : basisWithout<N>({});
+  if (round) // a2 goes with a1
+    basis.row(7) = basis.row(6);
+  return basis;
 }
 
 } // namespace pcl_sq::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "families/vessel_problem.h"
 
+#include "families/family_step.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -50,10 +52,6 @@ void takeNearest(const std::array<ProfileVertex, COUNT>& line,
   foot.distance = std::sqrt(least);
   if (foot.from)
     foot.at = (1.0 - foot.share) * foot.from[0].at + foot.share * foot.from[1].at;
-}
-
-bool outOf(double value, double low, double high, double direction) {
-  return (value <= low && direction < 0.0) || (value >= high && direction > 0.0);
 }
 
 } // namespace
@@ -138,13 +136,7 @@ void VesselProblem::addPoints(const Superquadric& s,
                       foot.share * (n.transpose() * foot.from[1].d))
                          .transpose();
     const double q = precision ? double(precision[i]) : 1.0;
-    const double square = q * foot.distance * foot.distance;
-    double share;
-    e.cost += density.cost(square, share);
-    e.share += share;
-    e.weighted += share * square;
-    e.jtj.selfadjointView<Eigen::Lower>().rankUpdate(row, share * q);
-    e.jtr += share * q * foot.distance * row;
+    addPoint(density, q, foot.distance, row, e);
   }
   e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
 }
@@ -212,29 +204,15 @@ void VesselProblem::addPlanes(const Superquadric& s,
 Superquadric
 VesselProblem::moved(const Superquadric& m, const Vector& step, bool& limited) const {
   Vector s = step;
-  const auto shorten = [&](int begin, int size, double trust) {
-    double largest = 0.0;
-    for (int k = begin; k < begin + size; ++k)
-      largest = std::max(largest, std::abs(s[k]));
-    if (!(largest > trust))
-      return;
-    for (int k = begin; k < begin + size; ++k)
-      s[k] *= trust / largest;
-    limited = true;
-  };
-  limited = false;
-  shorten(0, 3, TRUST * m.semi_axes.maxCoeff());
-  shorten(3, 2, TRUST);
-  shorten(5, 2, TRUST);
-  shorten(7, 1, TRUST);
-  shorten(8, 2, RIM_TRUST);
-  shorten(10, 1, TRUST);
+  limited = shorten({{0, 3, TRUST * m.semi_axes.maxCoeff()},
+                     {3, 2, TRUST},
+                     {5, 2, TRUST},
+                     {7, 1, TRUST},
+                     {8, 2, RIM_TRUST},
+                     {10, 1, TRUST}},
+                    s);
   Superquadric next = m;
-  next.center += m.rotation * s.head<3>();
-  const Eigen::Vector3d turn(s[3], s[4], 0.0);
-  if (turn.norm() > 0.0)
-    next.rotation *=
-        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  moveRigidly(s.head<3>(), {s[3], s[4], 0.0}, next);
   const auto axis = [&](double a, double ds) {
     return std::clamp(a * std::exp(ds), limits_.min_axis, limits_.max_axis);
   };
@@ -257,25 +235,16 @@ VesselProblem::moved(const Superquadric& m, const Vector& step, bool& limited) c
 
 bool VesselProblem::isActiveBound(const Superquadric& m,
                                   const Vector& direction) const {
-  return outOf(m.semi_axes.x(), limits_.min_axis, limits_.max_axis, direction[5]) ||
-         outOf(m.semi_axes.z(), limits_.min_axis, limits_.max_axis, direction[6]) ||
-         outOf(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[7]) ||
-         outOf(m.kx, -MAX_TAPER, MAX_TAPER, direction[8]) ||
-         outOf(m.rim, MIN_RIM, MAX_RIM, direction[9]);
+  return leaves(m.semi_axes.x(), limits_.min_axis, limits_.max_axis, direction[5]) ||
+         leaves(m.semi_axes.z(), limits_.min_axis, limits_.max_axis, direction[6]) ||
+         leaves(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[7]) ||
+         leaves(m.kx, -MAX_TAPER, MAX_TAPER, direction[8]) ||
+         leaves(m.rim, MIN_RIM, MAX_RIM, direction[9]);
 }
 
 Basis<VesselProblem::N> vesselBasis(bool upright) {
-  Basis<VesselProblem::N> basis =
-      Basis<VesselProblem::N>::Identity(VesselProblem::N, VesselProblem::N);
-  if (!upright)
-    return basis;
-  Basis<VesselProblem::N> held =
-      Basis<VesselProblem::N>::Zero(VesselProblem::N, VesselProblem::N - 2);
-  int column = 0;
-  for (int k = 0; k < VesselProblem::N; ++k)
-    if (k != 3 && k != 4)
-      held.col(column++) = basis.col(k);
-  return held;
+  constexpr int N = VesselProblem::N;
+  return upright ? basisWithout<N>({3, 4}) : basisWithout<N>({});
 }
 
 } // namespace pcl_sq::detail

@@ -75,6 +75,9 @@ void fitPiece(const PieceContext& context,
   options.choose_shape = options.choose_shape && !general;
   options.vessel = options.vessel && piece.stands; // a handle is none
   options.taper = options.taper && piece.stands;   // nor is it a cone
+  // from a wrong place the far side of a solid is its inside
+  if (o.hasCamera() && !o.viewpoint_known && !piece.ends.empty())
+    options.vessel = false;
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo/matching.h"
 
+#include "stereo/wls/wls_filter.h"
+
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
-#ifdef PCL_SQ_HAVE_XIMGPROC
-#include <opencv2/ximgproc/disparity_filter.hpp>
-#endif
 
 #include <algorithm>
 #include <cfloat>
@@ -66,27 +65,6 @@ cv::Mat toPixels(const cv::Mat& fixed, const DisparityRange& range) {
   return result;
 }
 
-#ifdef PCL_SQ_HAVE_XIMGPROC
-cv::Mat filterWls(const cv::Mat& left,
-                  const cv::Mat& right,
-                  const cv::Mat& guide,
-                  const cv::Ptr<cv::StereoMatcher>& matcher,
-                  const StereoOptions& options,
-                  cv::Mat& confidence) {
-  // the filter makes its own left-right check and confidence from raw disparities
-  auto filter = cv::ximgproc::createDisparityWLSFilter(matcher);
-  auto right_matcher = cv::ximgproc::createRightMatcher(matcher);
-  cv::Mat fixed_left, fixed_right, filtered;
-  matcher->compute(left, right, fixed_left);
-  right_matcher->compute(right, left, fixed_right);
-  filter->setLambda(options.wls_lambda);
-  filter->setSigmaColor(options.wls_sigma);
-  filter->filter(fixed_left, guide, filtered, fixed_right, cv::Rect(), right);
-  confidence = filter->getConfidenceMap();
-  return filtered;
-}
-#endif
-
 cv::Mat widened(const cv::Mat& image, int left, int right) {
   cv::Mat result;
   cv::copyMakeBorder(image, result, 0, 0, left, right, cv::BORDER_REPLICATE);
@@ -105,7 +83,7 @@ DisparityRange rangeOf(double low, double high) {
 
 cv::Mat matchPair(const cv::Mat& left,
                   const cv::Mat& right,
-                  [[maybe_unused]] const cv::Mat& guide,
+                  const cv::Mat& guide,
                   const DisparityRange& range,
                   const StereoOptions& options) {
   cv::Ptr<cv::StereoMatcher> matcher = makeMatcher(options, range, left.cols);
@@ -117,17 +95,16 @@ cv::Mat matchPair(const cv::Mat& left,
   const cv::Mat wide_right = widened(right, pad_left, pad_right);
   const cv::Rect inner(pad_left, 0, left.cols, left.rows);
   cv::Mat fixed, confidence;
-#ifdef PCL_SQ_HAVE_XIMGPROC
-  if (options.wls) {
-    fixed = filterWls(wide_left,
-                      wide_right,
-                      widened(guide, pad_left, pad_right),
-                      matcher,
-                      options,
-                      confidence);
+  if (options.wls && wlsFilter() != nullptr) {
+    wlsFilter()(wide_left,
+                wide_right,
+                widened(guide, pad_left, pad_right),
+                matcher,
+                options,
+                fixed,
+                confidence);
     confidence = confidence(inner);
   }
-#endif
   if (fixed.empty())
     matcher->compute(wide_left, wide_right, fixed);
   cv::Mat disparity = toPixels(fixed(inner), range);

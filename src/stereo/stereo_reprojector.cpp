@@ -156,22 +156,22 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
   return disparity;
 }
 
-StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& right) {
+StereoResult StereoReprojector::rectified(const cv::Mat& left, const cv::Mat& right) {
   checkType(left, "left");
   checkType(right, "right");
   StereoResult result;
-  auto start = Clock::now();
+  const auto start = Clock::now();
   calibration_.rectify(left, right, result.left, result.right);
   result.left = toColor(result.left);
   result.intrinsics = calibration_.getIntrinsics();
   result.timings_ms.emplace_back("rectify", millisecondsSince(start));
-  start = Clock::now();
+  return result;
+}
+
+StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& right) {
+  StereoResult result = rectified(left, right);
   try {
-    result.disparity = computeDisparity(result.left, result.right, result.intrinsics);
-  } catch (const cv::Exception&) {
-    raise("images of " + std::to_string(left.cols) + " x " + std::to_string(left.rows) +
-          " px cannot be matched with these settings; give larger images or a smaller "
-          "block.");
+    match(result);
   } catch (const Exception&) {
     // exchanged raw images do not even lie on the same lines; try the other maps
     cv::Mat other_left, other_right;
@@ -181,6 +181,51 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
         detail::voteOnOrder(other_left, other_right).given > 0.2)
       raise("the images match only the other way round; exchange left and right.");
     throw;
+  }
+  return result;
+}
+
+StereoResult StereoReprojector::compute(const cv::Mat& left,
+                                        const cv::Mat& right,
+                                        const StereoWindow& window) {
+  StereoResult result = rectified(left, right);
+  StereoIntrinsics& k = result.intrinsics;
+  // the window of the right image is moved by the disparity of the middle depth, so
+  // that both together are a pair of their own with another offset
+  const auto shift = static_cast<int>(std::lround(
+      0.5 * (k.disparity(window.min_depth) + k.disparity(window.max_depth))));
+  const cv::Rect all(0, 0, result.left.cols, result.left.rows);
+  const cv::Rect wanted(
+      window.rect.x, window.rect.y, window.rect.width, window.rect.height);
+  const cv::Rect here = wanted & all & (all + cv::Point(shift, 0));
+  if (here.width < 32 || here.height < 32)
+    raise("the window lies outside of the images; give one within them.");
+  result.window = {here.x, here.y, here.width, here.height};
+  result.left = result.left(here).clone();
+  result.right = result.right(here - cv::Point(shift, 0)).clone();
+  k.cx -= here.x;
+  k.cy -= here.y;
+  k.width = here.width;
+  k.height = here.height;
+  k.doffs += shift;
+  StereoReprojector part;
+  part.options_ = options_;
+  part.options_.min_depth = window.min_depth;
+  part.options_.max_depth = window.max_depth;
+  part.options_.check_order = false;
+  part.match(result);
+  return result;
+}
+
+void StereoReprojector::match(StereoResult& result) const {
+  auto start = Clock::now();
+  try {
+    result.disparity = computeDisparity(result.left, result.right, result.intrinsics);
+  } catch (const cv::Exception&) {
+    raise("images of " + std::to_string(result.left.cols) + " x " +
+          std::to_string(result.left.rows) +
+          " px cannot be matched with these settings; give larger images or a smaller "
+          "block.");
   }
   result.timings_ms.emplace_back("match", millisecondsSince(start));
   start = Clock::now();
@@ -197,7 +242,6 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
   result.cloud = reprojectDisparity(result.disparity, result.left, result.intrinsics);
   result.coverage = finiteShare(*result.cloud);
   result.timings_ms.emplace_back("reproject", millisecondsSince(start));
-  return result;
 }
 
 pcl::PointCloud<pcl::PointXYZRGB>::Ptr

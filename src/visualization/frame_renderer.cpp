@@ -5,6 +5,7 @@
 #include "visualization/display/gl_display.h"
 #include "visualization/drawing/actors.h"
 #include "visualization/drawing/overlay.h"
+#include "visualization/files/vtk_bytes.h"
 
 #include <vtkNew.h>
 #include <vtkObject.h>
@@ -63,36 +64,37 @@ reduce(const vtkUnsignedCharArray& pixels, int width, int height, int zoom) {
   return image;
 }
 
-} // namespace
+class VtkRenderer : public FrameRenderer {
+public:
+  VtkRenderer(int width, int height);
+  SnapshotImage render(const SnapshotScene& scene,
+                       const Eigen::Matrix3Xd& focus,
+                       const ViewCamera& camera) override;
 
-struct FrameRenderer::Window {
+private:
   // in this order: the window is gone before its display
-  std::unique_lock<std::mutex> lock{renderMutex()};
-  QuietVtk quiet;
-  GlDisplay display;
-  vtkNew<vtkRenderWindow> vtk;
-  int zoom = 2;
+  std::unique_lock<std::mutex> lock_{renderMutex()};
+  QuietVtk quiet_;
+  GlDisplay display_;
+  vtkNew<vtkRenderWindow> window_;
+  int zoom_ = 2;
 };
 
-FrameRenderer::FrameRenderer(int width, int height)
-    : window_(std::make_unique<Window>()) {
+VtkRenderer::VtkRenderer(int width, int height) {
   if (static_cast<long>(width) * height > LARGEST_SMOOTHED)
-    window_->zoom = 1;
-  window_->vtk->SetDisplayId(window_->display.connection());
-  window_->vtk->SetOffScreenRendering(1);
-  window_->vtk->SetSize(window_->zoom * width, window_->zoom * height);
-  window_->vtk->SetMultiSamples(0); // depth peeling has no samples; we average instead
-  window_->vtk->SetAlphaBitPlanes(1);
+    zoom_ = 1;
+  window_->SetDisplayId(display_.connection());
+  window_->SetOffScreenRendering(1);
+  window_->SetSize(zoom_ * width, zoom_ * height);
+  window_->SetMultiSamples(0); // depth peeling has no samples; we average instead
+  window_->SetAlphaBitPlanes(1);
 }
 
-FrameRenderer::~FrameRenderer() = default;
-
-SnapshotImage FrameRenderer::render(const SnapshotScene& scene,
-                                    const Eigen::Matrix3Xd& focus,
-                                    const ViewCamera& camera) {
-  const int zoom = window_->zoom;
+SnapshotImage VtkRenderer::render(const SnapshotScene& scene,
+                                  const Eigen::Matrix3Xd& focus,
+                                  const ViewCamera& camera) {
   vtkNew<vtkRenderer> renderer;
-  window_->vtk->AddRenderer(renderer);
+  window_->AddRenderer(renderer);
   const Color paper = scene.options.background;
   renderer->SetBackground(paper.r / 255.0, paper.g / 255.0, paper.b / 255.0);
   // translucent bodies in their order of depth, whatever their order of drawing; a
@@ -102,22 +104,34 @@ SnapshotImage FrameRenderer::render(const SnapshotScene& scene,
   renderer->SetMaximumNumberOfPeels(8);
   renderer->SetOcclusionRatio(0.0);
 
-  Stage(renderer, camera, focus, zoom).add(scene);
-  Overlay overlay(renderer, camera.width(), camera.height(), zoom);
+  Stage(renderer, camera, focus, zoom_).add(scene);
+  Overlay overlay(renderer, camera.width(), camera.height(), zoom_);
   drawDecorations(overlay, OverlayLayout(scene), scene, camera);
 
-  window_->vtk->Render();
-  const int width = zoom * camera.width(), height = zoom * camera.height();
+  window_->Render();
+  const int width = zoom_ * camera.width(), height = zoom_ * camera.height();
   vtkNew<vtkUnsignedCharArray> pixels;
   const bool read =
-      window_->vtk->GetPixelData(0, 0, width - 1, height - 1, 0, pixels) != 0 &&
+      window_->GetPixelData(0, 0, width - 1, height - 1, 0, pixels) != 0 &&
       pixels->GetNumberOfValues() == 3LL * width * height;
-  window_->vtk->RemoveRenderer(renderer);
+  window_->RemoveRenderer(renderer);
   if (!read)
     throw Exception(
         "[pcl_sq::SnapshotRenderer::render] the display gives no picture of "
         "that size; ask for a smaller one.");
-  return reduce(*pixels, camera.width(), camera.height(), zoom);
+  return reduce(*pixels, camera.width(), camera.height(), zoom_);
 }
 
+} // namespace
 } // namespace pcl_sq
+
+const pcl_sq::VtkPart* pcl_sq_vtk_part() {
+  using namespace pcl_sq;
+  static const VtkPart PART{
+      [](int width, int height) -> std::unique_ptr<FrameRenderer> {
+        return std::make_unique<VtkRenderer>(width, height);
+      },
+      pngBytes,
+      vtpBytes};
+  return &PART;
+}

@@ -170,7 +170,9 @@ ViewCamera SnapshotRenderer::camera() const {
 SnapshotImage SnapshotRenderer::render() const {
   const Eigen::Matrix3Xd focus = checkedFocus(*scene_);
   const ViewCamera camera = stillCamera(*scene_, focus);
-  return FrameRenderer(camera.width(), camera.height()).render(*scene_, focus, camera);
+  return vtkPart("pcl_sq::SnapshotRenderer::render")
+      .makeRenderer(camera.width(), camera.height())
+      ->render(*scene_, focus, camera);
 }
 
 void SnapshotRenderer::save(const std::string& path) const {
@@ -205,7 +207,7 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(
                                                     OverlayLayout(*scene_).margins,
                                                     2.0 * M_PI * i / count);
     if (!renderer)
-      renderer = std::make_unique<FrameRenderer>(o.width, o.height);
+      renderer = vtkPart(SAVE).makeRenderer(o.width, o.height);
     const auto k = static_cast<std::size_t>(i);
     writePng(names[k], renderer->render(*scene_, focus, camera), SAVE);
     if (progress)

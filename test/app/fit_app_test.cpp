@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bottle_view.h"
 #include "program.h"
+#include "text.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/superquadric.h"
@@ -44,25 +45,12 @@ std::string pcdOf(const std::vector<Eigen::Vector3f>& points) {
   return text.str();
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-  return text;
-}
-
-/** \brief The program refuses: exit code, one sentence, nothing written. */
+/** \brief The program refuses and leaves nothing behind. */
 void expectRefusal(const Folder& folder,
                    std::vector<std::string> arguments,
                    int code = 1) {
-  const std::size_t files = folder.files();
   arguments.insert(arguments.end(), {"-o", folder / "model.json"});
-  const ProgramRun run = runProgram("pcl_sq_fit", arguments);
-  std::string line;
-  for (const std::string& argument : arguments)
-    line += argument + " ";
-  EXPECT_EQ(run.code, code) << line << run.err;
-  EXPECT_EQ(run.sentences(), 1) << line << run.err;
-  EXPECT_TRUE(run.out.empty()) << line << run.out;
-  EXPECT_EQ(folder.files(), files) << line << "something was left behind";
+  test::expectRefusal("pcl_sq_fit", arguments, code, "", &folder);
 }
 
 } // namespace

@@ -30,10 +30,7 @@ std::string canJson(double radius, bool empty = false) {
 void expectRefusal(const std::vector<std::string>& arguments,
                    int code,
                    const std::string& word) {
-  const ProgramRun run = runProgram("pcl_sq_grasp", arguments);
-  EXPECT_EQ(run.code, code) << run.err;
-  EXPECT_EQ(run.sentences(), 1) << run.err;
-  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  test::expectRefusal("pcl_sq_grasp", arguments, code, word);
 }
 
 } // namespace

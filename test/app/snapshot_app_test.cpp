@@ -39,19 +39,11 @@ std::pair<int, int> sizeOf(const std::string& path) {
 
 const std::pair<int, int> SMALL{200, 150};
 
-/** \brief The program refuses: exit code, one sentence, nothing written. */
+/** \brief The program refuses and leaves nothing behind. */
 void expectRefusal(const Folder& folder,
                    const std::vector<std::string>& arguments,
                    int code) {
-  const std::size_t files = folder.files();
-  const ProgramRun run = runProgram("pcl_sq_snapshot", arguments);
-  std::string line;
-  for (const std::string& argument : arguments)
-    line += argument + " ";
-  EXPECT_EQ(run.code, code) << line << run.err;
-  EXPECT_EQ(run.sentences(), 1) << line << run.err;
-  EXPECT_TRUE(run.out.empty()) << line << run.out;
-  EXPECT_EQ(folder.files(), files) << line << "something was left behind";
+  test::expectRefusal("pcl_sq_snapshot", arguments, code, "", &folder);
 }
 
 } // namespace

@@ -39,10 +39,7 @@ protected:
   static void expectRefusal(const std::vector<std::string>& arguments,
                             const std::string& reason,
                             int code = 1) {
-    const ProgramRun run = stereo(arguments, {});
-    EXPECT_EQ(run.code, code) << run.err;
-    EXPECT_EQ(run.sentences(), 1) << run.err;
-    EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
+    test::expectRefusal("pcl_sq_stereo", arguments, code, reason);
   }
 
   static Folder* folder_;

@@ -23,6 +23,8 @@ HAS_BATCH = subprocess.run(
 NAMED = {"depth.png": "depth.png", "mask.png": "mask.png", "labels.png": "mask.png",
          "left.png": "bottle/left.png", "right.png": "bottle/right.png",
          "im0.png": "bottle/left.png", "im1.png": "bottle/right.png",
+         "left_01.png": "bottle/left.png", "right_01.png": "bottle/right.png",
+         "left_02.png": "bottle/left.png", "right_02.png": "bottle/right.png",
          "calib.txt": "calib.txt", "scene.pcd": "kinect.pcd", "kinect.pcd": "kinect.pcd",
          "bottle.pcd": "kinect.pcd",
          "stereo_calib.xml": "stereo_calib.xml", "truth.json": "bottle/truth.json"}

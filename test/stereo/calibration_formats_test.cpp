@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rig_formats.h"
+#include "text.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -56,13 +57,6 @@ std::string refusal(const Texts& texts, double unit = 1.0) {
 void expectRefusal(const std::string& text, const std::string& reason) {
   EXPECT_NE(refusal({{"file", text}}).find(reason), std::string::npos)
       << "wanted '" << reason << "', got '" << refusal({{"file", text}}) << "'";
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t i = text.find(what); i != std::string::npos;
-       i = text.find(what, i + by.size()))
-    text.replace(i, what.size(), by);
-  return text;
 }
 
 } // namespace

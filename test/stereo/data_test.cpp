@@ -78,7 +78,7 @@ TEST(LaundryPair, BlockMatchingIsWithinAFifthOfAPixelWhereBothCamerasSee) {
   EXPECT_GE(error.coverage, 0.6);
   Segment segment;
   ObjectSegmenter segmenter;
-  const PixelRect bottle{290, 150, 90, 197}; // by hand, about 5 px
+  const CellRect bottle{290, 150, 90, 197}; // by hand, about 5 px
   ASSERT_TRUE(segmenter.segmentBox(
       left,
       {bottle.x - 8, bottle.y - 8, bottle.width + 16, bottle.height + 16},
@@ -200,7 +200,7 @@ TEST_P(RenderedPairs, ABoxHintGivesTheExactRegion) {
     GTEST_SKIP() << "no data in " << folder;
   const cv::Mat image = cv::imread(folder + "rect_left.png");
   const cv::Mat mask = cv::imread(folder + "rect_mask.png", cv::IMREAD_GRAYSCALE) > 127;
-  const PixelRect roi = boundingRect(mask);
+  const CellRect roi = boundingRect(mask);
   ObjectSegmenter segmenter;
   Segment segment;
   ASSERT_TRUE(segmenter.segmentBox(

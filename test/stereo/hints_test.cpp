@@ -19,8 +19,8 @@ const std::string DATA = PCL_SQ_TEST_DATA;
 struct Hint {
   const char* name;
   const char* pair;
-  PixelRect box; ///< drawn by hand, about 5 px
-  int x, y;      ///< a pixel of the object
+  CellRect box; ///< drawn by hand, about 5 px
+  int x, y;     ///< a pixel of the object
 };
 
 const Hint HINTS[] = {{"Mug", "adirondack", {340, 110, 58, 58}, 360, 145},

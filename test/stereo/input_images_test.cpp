@@ -5,7 +5,7 @@
 #include "folder.h"
 #include "mutate.h"
 #include "stereo/input_images.h"
-#include "stereo/texture_check.h"
+#include "stereo/pipeline/texture_check.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -166,18 +166,18 @@ TEST(TextureCheck, TextureIsToldFromNoiseOfTwoCameras) {
   stereo.disparity = cv::Mat::zeros(80, 120, CV_32F);
   cv::Mat mask = cv::Mat::zeros(80, 120, CV_8U);
   mask(cv::Rect(30, 20, 50, 40)).setTo(255);
-  EXPECT_GT(app::texturedShare(stereo, mask, 11).of_pixels, 0.99);
+  EXPECT_GT(detail::texturedShare(stereo, mask, 11).of_pixels, 0.99);
   cv::randn(stereo.left(cv::Rect(30, 20, 50, 40)), 128.0, 2.0); // a plain body
   cv::randn(stereo.right(cv::Rect(30, 20, 50, 40)), 128.0, 2.0);
-  EXPECT_LT(app::texturedShare(stereo, mask, 11).of_pixels, 0.01);
+  EXPECT_LT(detail::texturedShare(stereo, mask, 11).of_pixels, 0.01);
   // a label: few of the pixels, but most of those that were matched
   noise(CV_8U, 20, 20).copyTo(stereo.left(cv::Rect(35, 25, 20, 20)));
   stereo.left.copyTo(stereo.right);
   cv::randn(stereo.right(cv::Rect(56, 20, 24, 40)), 128.0, 2.0);
   stereo.disparity(cv::Rect(61, 20, 19, 40)).setTo(std::nan(""));
-  const app::TexturedShare label = app::texturedShare(stereo, mask, 11);
+  const detail::TexturedShare label = detail::texturedShare(stereo, mask, 11);
   EXPECT_LT(label.of_pixels, 0.7);
   EXPECT_GT(label.of_matches, label.of_pixels + 0.2);
   stereo.disparity(cv::Rect(30, 20, 50, 40)).setTo(std::nan(""));
-  EXPECT_EQ(app::texturedShare(stereo, mask, 11).of_pixels, 0.0);
+  EXPECT_EQ(detail::texturedShare(stereo, mask, 11).of_pixels, 0.0);
 }

@@ -17,7 +17,7 @@ const StereoScene& can() {
   return scene;
 }
 
-PixelRect around(const PixelRect& r, int margin) {
+CellRect around(const CellRect& r, int margin) {
   return {r.x - margin, r.y - margin, r.width + 2 * margin, r.height + 2 * margin};
 }
 
@@ -48,7 +48,7 @@ TEST_P(ObjectSegmenterMethods, FindsTheObjectInABox) {
 }
 
 TEST_P(ObjectSegmenterMethods, FindsTheObjectUnderAPixel) {
-  const PixelRect& r = can().roi;
+  const CellRect& r = can().roi;
   ASSERT_TRUE(segmenter_.segmentClick(
       can().left, r.x + r.width / 2, r.y + r.height / 2, segment_));
   expectTheCan();

@@ -3,6 +3,8 @@
 
 #include "folder.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -46,6 +48,25 @@ inline ProgramRun runProgram(const std::string& name,
   run.out = slurp(folder / "out");
   run.err = slurp(folder / "err");
   return run;
+}
+
+/** \brief The program refuses: exit code, one sentence with a word in it, no output.
+ * \param[in] folder in which nothing new is left */
+inline void expectRefusal(const std::string& name,
+                          const std::vector<std::string>& arguments,
+                          int code,
+                          const std::string& word = "",
+                          const Folder* folder = nullptr) {
+  const std::size_t files = folder ? folder->files() : 0;
+  const ProgramRun run = runProgram(name, arguments);
+  std::string line;
+  for (const std::string& argument : arguments)
+    line += argument + " ";
+  EXPECT_EQ(run.code, code) << line << run.err;
+  EXPECT_EQ(run.sentences(), 1) << line << run.err;
+  EXPECT_NE(run.err.find(word), std::string::npos) << line << run.err;
+  EXPECT_TRUE(run.out.empty()) << line << run.out;
+  EXPECT_EQ(folder ? folder->files() : 0, files) << line << "something was left behind";
 }
 
 } // namespace pcl_sq::test

@@ -21,7 +21,7 @@ struct StereoScene {
   cv::Mat left, right; ///< BGR
   cv::Mat disparity;   ///< exact, CV_32F [px]
   cv::Mat mask;        ///< exact, 255 = object
-  PixelRect roi;
+  CellRect roi;
   StereoIntrinsics intrinsics;
 };
 
@@ -74,7 +74,7 @@ inline cv::Mat readPfm(const std::string& path) {
 }
 
 /** \brief Intersection over union of two boxes. */
-inline double overlap(const PixelRect& a, const PixelRect& b) {
+inline double overlap(const CellRect& a, const CellRect& b) {
   const cv::Rect p(a.x, a.y, a.width, a.height), q(b.x, b.y, b.width, b.height);
   const double both = (p & q).area();
   return both / (p.area() + q.area() - both);

@@ -34,8 +34,8 @@ struct PCL_SQ_EXPORTS SegmenterOptions {
 
 /** \brief The object in the image. */
 struct Segment {
-  cv::Mat mask;   ///< CV_8U, 255 = object, size of the image
-  PixelRect rect; ///< its box
+  cv::Mat mask;  ///< CV_8U, 255 = object, size of the image
+  CellRect rect; ///< its box
   /** \brief Whether the mask follows the object's outline; false where colours did not
    * tell it from its surroundings and the mask is the hint's box. */
   bool outlined = true;
@@ -56,12 +56,12 @@ public:
 
   /** \brief The object in a box that holds it roughly. */
   [[nodiscard]] bool
-  segmentBox(const cv::Mat& image, const PixelRect& box, Segment& segment);
+  segmentBox(const cv::Mat& image, const CellRect& box, Segment& segment);
   /** \brief The same, helped by depth where GRABCUT is the method: what lies on the
    * plane around the box or at another depth than the box's middle is hardly the
    * object. \param[in] cloud organized, of the image's size, camera's frame [m] */
   [[nodiscard]] bool segmentBox(const cv::Mat& image,
-                                const PixelRect& box,
+                                const CellRect& box,
                                 const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                                 Segment& segment);
   /** \brief The object under a pixel. */
@@ -76,6 +76,10 @@ public:
   /** \brief The largest patch of a colour. \param[in] red, green, blue 0 to 255 */
   [[nodiscard]] bool
   segmentColor(const cv::Mat& image, int red, int green, int blue, Segment& segment);
+  /** \brief The object whose outline is known roughly, such as that of a moment ago.
+   * \param[in] rough CV_8U, its pixels not 0, of the image's size */
+  [[nodiscard]] bool
+  segmentMask(const cv::Mat& image, const cv::Mat& rough, Segment& segment);
   /** \brief The largest object that stands on the largest plane, found in the
    * organized cloud and sharpened in the image. */
   [[nodiscard]] bool segmentTabletop(const cv::Mat& image,
@@ -94,6 +98,6 @@ private:
 };
 
 /** \brief Smallest box of the set pixels; empty if there is none. */
-PCL_SQ_EXPORTS PixelRect boundingRect(const cv::Mat& mask);
+PCL_SQ_EXPORTS CellRect boundingRect(const cv::Mat& mask);
 
 } // namespace pcl_sq

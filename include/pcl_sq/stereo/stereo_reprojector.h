@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/cell_mask.h"
 #include "pcl_sq/stereo/stereo_calibration.h"
 #include "pcl_sq/stereo/stereo_options.h"
 
@@ -26,8 +27,17 @@ struct StereoResult {
   cv::Mat right;            ///< the other one; empty for depth images
   StereoIntrinsics intrinsics; ///< baseline 0 for depth images
   double coverage = 0.0;       ///< share of pixels with depth, 0 to 1
+  /** Part of the rectified left image that all of these belong to, cloud, images and
+   * intrinsics alike; empty: the whole image. */
+  CellRect window;
   /** Stages and their times [ms]: rectify, match, reproject. */
   std::vector<std::pair<std::string, double>> timings_ms;
+};
+
+/** \brief What is known of a pair before it is matched: where to look, how far. */
+struct StereoWindow {
+  CellRect rect;                           ///< part of the rectified left image
+  double min_depth = 0.0, max_depth = 0.0; ///< as in StereoOptions, not 0 [m]
 };
 
 /** \brief Disparity by block matching (paper, II-A, Eq. 1) and the cloud from it.
@@ -51,6 +61,12 @@ public:
    * exchanged */
   StereoResult compute(const cv::Mat& left, const cv::Mat& right);
 
+  /** \brief The same for a part of the images: nothing else is matched. The order of
+   * the images is not checked. \throws pcl_sq::Exception also if that part is smaller
+   * than 32 x 32 px */
+  StereoResult
+  compute(const cv::Mat& left, const cv::Mat& right, const StereoWindow& window);
+
   /** \brief Disparity of a rectified pair, CV_32F [px], NaN where nothing matched.
    * \throws pcl_sq::Exception as compute() */
   cv::Mat computeDisparity(const cv::Mat& left,
@@ -58,6 +74,9 @@ public:
                            const StereoIntrinsics& intrinsics) const;
 
 private:
+  StereoResult rectified(const cv::Mat& left, const cv::Mat& right);
+  void match(StereoResult& result) const;
+
   StereoCalibration calibration_;
   StereoOptions options_;
 };

@@ -92,13 +92,13 @@ bool ObjectSegmenter::finish(const std::string& method,
 }
 
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
-                                 const PixelRect& box,
+                                 const CellRect& box,
                                  Segment& segment) {
   return segmentBox(image, box, pcl::PointCloud<pcl::PointXYZRGB>(), segment);
 }
 
 bool ObjectSegmenter::segmentBox(const cv::Mat& image,
-                                 const PixelRect& box,
+                                 const CellRect& box,
                                  const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                                  Segment& segment) {
   if (image.empty() || image.depth() != CV_8U)
@@ -218,6 +218,21 @@ bool ObjectSegmenter::segmentColor(
   return finish("segmentColor", object, segment);
 }
 
+bool ObjectSegmenter::segmentMask(const cv::Mat& image,
+                                  const cv::Mat& rough,
+                                  Segment& segment) {
+  if (image.empty() || image.depth() != CV_8U || rough.size() != image.size())
+    return fail("segmentMask",
+                "the image must be 8-bit and not empty, the mask of its size",
+                segment);
+  if (cv::countNonZero(rough) == 0)
+    return fail("segmentMask", "the mask is empty", segment);
+  return finish(
+      "segmentMask",
+      cutAroundMask(toBgr(image), rough, options_.margin, options_.iterations),
+      segment);
+}
+
 bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
                                       const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
                                       Segment& segment) {
@@ -234,7 +249,7 @@ bool ObjectSegmenter::segmentTabletop(const cv::Mat& image,
   return finish("segmentTabletop", rough, segment);
 }
 
-PixelRect boundingRect(const cv::Mat& mask) {
+CellRect boundingRect(const cv::Mat& mask) {
   const cv::Rect r = cv::boundingRect(mask);
   return {r.x, r.y, r.width, r.height};
 }

@@ -13,10 +13,6 @@ namespace {
 constexpr Color INK = {40, 44, 52}, PALE_INK = {104, 110, 120};
 constexpr std::size_t LEGEND_LINES = 12; ///< more parts are counted in one last line
 
-bool showsLegend(const SnapshotScene& scene) {
-  return scene.options.legend && scene.model.parts.size() > 1;
-}
-
 void drawTitle(Overlay& overlay, double text, const SnapshotOptions& options) {
   double y = 1.4 * text;
   if (!options.title.empty()) {
@@ -149,26 +145,6 @@ void drawLegend(Overlay& overlay, double text, const SnapshotScene& scene) {
 
 } // namespace
 
-OverlayLayout::OverlayLayout(const SnapshotScene& scene) {
-  const SnapshotOptions& o = scene.options;
-  const int side = std::min(o.width, o.height);
-  if (side < 160)
-    return;
-  text = std::max(11.0, side / 44.0);
-  double top = 0.0;
-  if (!o.title.empty())
-    top += 1.9 * text;
-  if (!o.caption.empty())
-    top += 1.6 * text;
-  margins.top += top / o.height;
-  if (o.axes || o.scale_bar)
-    margins.bottom += 2.2 * text / o.height;
-  if (showsLegend(scene))
-    margins.right += 4.0 * text / o.width;
-  if (o.axes)
-    margins.left += 4.0 * text / o.width;
-}
-
 void drawDecorations(Overlay& overlay,
                      const OverlayLayout& layout,
                      const SnapshotScene& scene,
@@ -180,7 +156,7 @@ void drawDecorations(Overlay& overlay,
     drawTriad(overlay, layout.text, scene.options, camera);
   if (scene.options.scale_bar)
     drawScaleBar(overlay, layout.text, scene.options, camera);
-  if (showsLegend(scene))
+  if (scene.showsLegend())
     drawLegend(overlay, layout.text, scene);
 }
 

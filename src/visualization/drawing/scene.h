@@ -36,6 +36,9 @@ struct SnapshotScene {
   std::vector<Segments> segments;
   std::vector<Markers> markers;
 
+  /** \brief Whether the parts are named beside the picture. */
+  bool showsLegend() const { return options.legend && model.size() > 1; }
+
   /** \brief Points whose extent the picture frames: the model and what was added beside
    * it, and the clouds' points close to them; without any, the clouds without their
    * outermost points. Empty for an empty scene. */

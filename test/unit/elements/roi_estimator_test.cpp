@@ -16,7 +16,7 @@ namespace {
 
 constexpr int WIDTH = 160, HEIGHT = 120;
 constexpr double FOCAL = 200.0, CX = 81.3, CY = 58.9;
-constexpr PixelRect OBJECT{50, 30, 41, 61}; // the pixels of the box's front
+constexpr CellRect OBJECT{50, 30, 41, 61}; // the pixels of the box's front
 
 /** A camera before a box, its front 1 m away and slanted to 1.08 m, and a wall at 2 m.
  */
@@ -79,7 +79,7 @@ TEST_F(RoiEstimatorTest, SidesAtTheMedianDepthAreTheRectangleBackProjected) {
   ASSERT_TRUE(estimator.estimate(region, points));
   const double z = estimator.getHistogram().median_depth;
   EXPECT_NEAR(z, 1.04, 0.005);
-  const PixelRect& rect = estimator.getRect();
+  const CellRect& rect = estimator.getRect();
   EXPECT_NEAR(region.min.x(), (rect.x - 0.5 - CX) / FOCAL * z, 1e-5);
   EXPECT_NEAR(region.max.x(), (rect.x + rect.width - 0.5 - CX) / FOCAL * z, 1e-5);
   EXPECT_NEAR(region.min.y(), (rect.y - 0.5 - CY) / FOCAL * z, 1e-5);
@@ -144,10 +144,10 @@ TEST_F(RoiEstimatorTest, FailsWithNothingLeftBehind) {
            region.sizes().isZero();
   };
   const int largest = std::numeric_limits<int>::max();
-  for (const PixelRect& off : {PixelRect{WIDTH, 0, 10, 10},
-                               PixelRect{-50, 5, 50, 50},
-                               PixelRect{-largest - 1, -largest - 1, 10, 10},
-                               PixelRect{largest, largest, largest, largest}}) {
+  for (const CellRect& off : {CellRect{WIDTH, 0, 10, 10},
+                              CellRect{-50, 5, 50, 50},
+                              CellRect{-largest - 1, -largest - 1, 10, 10},
+                              CellRect{largest, largest, largest, largest}}) {
     estimator.setRect(off);
     EXPECT_TRUE(isRefused());
   }

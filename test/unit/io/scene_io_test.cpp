@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/scene_io.h"
+#include "text.h"
 
 #include "folder.h"
 
@@ -34,12 +35,6 @@ SceneFile twoThings() {
   file.input_path = "scene.pcd";
   file.input_points = 307200;
   return file;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 
 #include "pcl_sq/stereo/stereo_reprojector.h"
 
-namespace pcl_sq::app {
+namespace pcl_sq::detail {
 
 /** \brief How much was matched by texture. */
 struct TexturedShare {
@@ -19,6 +19,8 @@ struct TexturedShare {
  * stronger than what they do.
  * \param[in] mask the object's pixels \param[in] block side of a window [px]
  * \return 0 to 1; 1 for what has hardly any inner pixel, for it cannot be judged */
-TexturedShare texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block);
+PCL_SQ_EXPORTS TexturedShare texturedShare(const StereoResult& stereo,
+                                           const cv::Mat& mask,
+                                           int block);
 
-} // namespace pcl_sq::app
+} // namespace pcl_sq::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo/texture_check.h"
+#include "stereo/pipeline/texture_check.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -7,7 +7,7 @@
 #include <cfloat>
 #include <cmath>
 
-namespace pcl_sq::app {
+namespace pcl_sq::detail {
 namespace {
 
 cv::Mat grey(const cv::Mat& image) {
@@ -66,4 +66,4 @@ texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
   return {textured / count, textured / std::max(matched, 1.0)};
 }
 
-} // namespace pcl_sq::app
+} // namespace pcl_sq::detail

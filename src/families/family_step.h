@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. What the least squares of all families do alike: points as robust rows,
+// steps within a trust region, bounds, held directions.
+#pragma once
+
+#include "families/robust_cost.h"
+#include "view_problem/view_problem.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace pcl_sq::detail {
+
+/** \brief A row of a point at a signed distance, weighted by the mixture (M5). The
+ * lower half of jtj is filled. */
+template <class Equations, class Vector>
+void addPoint(const RobustCost& density,
+              double precision,
+              double distance,
+              const Vector& row,
+              Equations& e) {
+  const double square = precision * distance * distance;
+  double share;
+  e.cost += density.cost(square, share);
+  e.share += share;
+  e.weighted += share * square;
+  e.jtj.template selfadjointView<Eigen::Lower>().rankUpdate(row, share * precision);
+  e.jtr += share * precision * distance * row;
+}
+
+/** \brief Parameters that belong together, and the largest step of any of them. */
+struct TrustRegion {
+  int begin, size;
+  double largest;
+};
+
+/** \brief Shortens a step to its trust regions. \return whether any of them did */
+template <class Vector>
+bool shorten(std::initializer_list<TrustRegion> regions, Vector& step) {
+  bool limited = false;
+  for (const TrustRegion& region : regions) {
+    auto part = step.segment(region.begin, region.size);
+    const double largest = part.cwiseAbs().maxCoeff();
+    if (!(largest > region.largest))
+      continue;
+    part *= region.largest / largest;
+    limited = true;
+  }
+  return limited;
+}
+
+/** \brief Moves a body along its own axes and turns it about them. */
+inline void moveRigidly(const Eigen::Vector3d& along,
+                        const Eigen::Vector3d& turn,
+                        Superquadric& s) {
+  s.center += s.rotation * along;
+  if (turn.norm() > 0.0)
+    s.rotation *= Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
+/** \brief Whether a value at its bound would leave it. */
+inline bool leaves(double value, double low, double high, double direction) {
+  return (value <= low && direction < 0.0) || (value >= high && direction > 0.0);
+}
+
+/** \brief All directions but those of some parameters. */
+template <int N>
+Basis<N> basisWithout(std::initializer_list<int> held) {
+  Basis<N> basis = Basis<N>::Zero(N, N - int(held.size()));
+  int columns = 0;
+  for (int k = 0; k < N; ++k)
+    if (std::find(held.begin(), held.end(), k) == held.end())
+      basis(k, columns++) = 1.0;
+  return basis;
+}
+
+} // namespace pcl_sq::detail

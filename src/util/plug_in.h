@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <dlfcn.h>
+
+#include <string>
+
+namespace pcl_sq::detail {
+
+/** \brief A function of a library that few runs need and that takes long to load, with
+ * all that it links: VTK, GDAL. It is loaded on first use and stays.
+ *
+ * The dynamic linker looks for it where the library or program that calls this is told
+ * to look (its RUNPATH: pcl_sq_plug_in() of the build), so this is inline.
+ * \param[in] file name of the library \param[in] symbol name of the C function
+ * \param[out] why what is wrong and what to do, in a sentence without its stop
+ * \return null where there is none */
+template <typename Function>
+inline Function* functionOf(const char* file, const char* symbol, std::string* why) {
+  void* library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  void* function = library == nullptr ? nullptr : dlsym(library, symbol);
+  if (function == nullptr) {
+    const char* reason = dlerror();
+    *why = "the plug-in " + std::string(file) + " of pcl_sq cannot be loaded (" +
+           (reason == nullptr ? "unknown reason" : reason) + "); install pcl_sq again";
+  }
+  return reinterpret_cast<Function*>(function);
+}
+
+} // namespace pcl_sq::detail
