@@ -102,6 +102,7 @@ Json toJson(const ShapeFigures& f) {
           {"center_distance", c.norm()},
           {"axis_error_deg", f.axis_error_deg},
           {"iou", f.iou},
+          {"iou_material", f.iou_material},
           {"volume", f.model_volume},
           {"true_volume", f.true_volume},
           {"chamfer", f.chamfer()},
@@ -140,6 +141,8 @@ void printTable(const Json& json) {
            "mm");
     line("axis error", s["axis_error_deg"].get<double>(), "deg");
     line("IoU of the volumes", s["iou"].get<double>(), "");
+    if (std::abs(s["iou_material"].get<double>() - s["iou"].get<double>()) > 1e-3)
+      line("IoU of the walls alone", s["iou_material"].get<double>(), "");
     line("model to truth, mean", 1e3 * s["model_to_truth"]["mean"].get<double>(), "mm");
     line("truth to model, mean", 1e3 * s["truth_to_model"]["mean"].get<double>(), "mm");
     line("chamfer", 1e3 * s["chamfer"].get<double>(), "mm");

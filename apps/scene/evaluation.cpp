@@ -98,7 +98,28 @@ double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return DEGREES * std::acos(std::clamp(c, -1.0, 1.0));
 }
 
-/** \brief Shares of a box that only the model, only the shape, and both fill. */
+/** \brief Counts of samples in two sets and in both. */
+struct Overlap {
+  long in_model = 0, in_shape = 0, in_both = 0;
+  void add(bool model, bool shape) {
+    in_model += model ? 1 : 0;
+    in_shape += shape ? 1 : 0;
+    in_both += model && shape ? 1 : 0;
+  }
+  void add(const Overlap& o) {
+    in_model += o.in_model;
+    in_shape += o.in_shape;
+    in_both += o.in_both;
+  }
+  double iou() const {
+    const long in_any = in_model + in_shape - in_both;
+    return in_any == 0 ? 0.0
+                       : static_cast<double>(in_both) / static_cast<double>(in_any);
+  }
+};
+
+/** \brief How far the model and the shape fill the same samples of a box, with their
+ * hollows filled and as material. */
 void measureVolumes(const MultiSuperquadric& model,
                     const MeshBvh& mesh,
                     const ReferenceShape& shape,
@@ -108,24 +129,35 @@ void measureVolumes(const MultiSuperquadric& model,
   Eigen::AlignedBox3d box = model.boundingBox();
   for (const Eigen::Vector3d& v : shape.mesh.vertices)
     box.extend(shape.rotation * v + shape.translation);
-  long in_model = 0, in_shape = 0, in_both = 0;
-#pragma omp parallel for schedule(dynamic, 512) num_threads(threads)                   \
-    reduction(+ : in_model, in_shape, in_both)
-  for (std::size_t i = 0; i < samples; ++i) {
-    const Eigen::Vector3d unit(
-        uniformOf(3 * i), uniformOf(3 * i + 1), uniformOf(3 * i + 2));
-    const Eigen::Vector3d p = box.min() + unit.cwiseProduct(box.sizes());
-    const bool a = model.contains(p);
-    const bool b = mesh.contains(shape.rotation.transpose() * (p - shape.translation));
-    in_model += a ? 1 : 0;
-    in_shape += b ? 1 : 0;
-    in_both += a && b ? 1 : 0;
+  Overlap filled, material;
+#pragma omp parallel num_threads(threads)
+  {
+    Overlap own_filled, own_material;
+#pragma omp for schedule(dynamic, 512)
+    for (std::size_t i = 0; i < samples; ++i) {
+      const Eigen::Vector3d unit(
+          uniformOf(3 * i), uniformOf(3 * i + 1), uniformOf(3 * i + 2));
+      const Eigen::Vector3d p = box.min() + unit.cwiseProduct(box.sizes());
+      const Eigen::Vector3d q = shape.rotation.transpose() * (p - shape.translation);
+      const bool within = mesh.contains(q);
+      own_filled.add(model.contains(p), within || mesh.isEnclosed(q));
+      own_material.add(
+          std::any_of(model.parts.begin(),
+                      model.parts.end(),
+                      [&p](const Superquadric& s) { return s.inMaterial(p); }),
+          within);
+    }
+#pragma omp critical
+    {
+      filled.add(own_filled);
+      material.add(own_material);
+    }
   }
   const double per_sample = box.volume() / static_cast<double>(samples);
-  figures.model_volume = per_sample * static_cast<double>(in_model);
-  figures.true_volume = per_sample * static_cast<double>(in_shape);
-  const long in_any = in_model + in_shape - in_both;
-  figures.iou = in_any == 0 ? 0.0 : static_cast<double>(in_both) / double(in_any);
+  figures.model_volume = per_sample * static_cast<double>(material.in_model);
+  figures.true_volume = per_sample * static_cast<double>(material.in_shape);
+  figures.iou = filled.iou();
+  figures.iou_material = material.iou();
 }
 
 } // namespace

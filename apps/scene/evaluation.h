@@ -28,9 +28,10 @@ struct ShapeFigures {
   Eigen::Vector3d model_size = Eigen::Vector3d::Zero(); ///< along the shape's x, y, z
   Eigen::Vector3d true_size = Eigen::Vector3d::Zero();
   Eigen::Vector3d center_error = Eigen::Vector3d::Zero(); ///< model minus truth
-  double axis_error_deg = 0.0;                  ///< modulo the shape's symmetry
-  double iou = 0.0;                             ///< of the volumes
-  double model_volume = 0.0, true_volume = 0.0; ///< [m^3]
+  double axis_error_deg = 0.0; ///< modulo the shape's symmetry
+  double iou = 0.0;            ///< of the volumes, hollows filled up to their rims
+  double iou_material = 0.0;   ///< of the walls, where one is hollow
+  double model_volume = 0.0, true_volume = 0.0; ///< of the material [m^3]
   DistanceFigures model_to_truth;               ///< from the union's surface
   DistanceFigures truth_to_model;               ///< from the shape's surface
   double chamfer() const { return 0.5 * (model_to_truth.mean + truth_to_model.mean); }

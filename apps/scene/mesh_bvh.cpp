@@ -225,6 +225,17 @@ bool MeshBvh::contains(const Eigen::Vector3d& point) const {
   return votes >= 2;
 }
 
+bool MeshBvh::isEnclosed(const Eigen::Vector3d& point) const {
+  if (nodes_.empty() || !box_.contains(point))
+    return false;
+  const Eigen::Vector3d sides[] = {
+      {1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}};
+  bool walls = true;
+  for (const Eigen::Vector3d& side : sides)
+    walls = walls && occluded(point, side);
+  return walls;
+}
+
 double MeshBvh::distance(const Eigen::Vector3d& point) const {
   double best = NO_HIT;
   if (nodes_.empty())

@@ -36,6 +36,9 @@ public:
   /** \brief Whether the winding number of the closed surface(s) is not zero, so that
    * overlapping closed parts count as their union. */
   bool contains(const Eigen::Vector3d& point) const;
+  /** \brief Whether a point has walls on all four sides in its plane across z: what a
+   * bowl or a mug with its opening up holds. */
+  bool isEnclosed(const Eigen::Vector3d& point) const;
   /** \brief Outward unit normal of a triangle. */
   Eigen::Vector3d normal(std::uint32_t triangle) const;
 

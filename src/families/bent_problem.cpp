@@ -33,9 +33,10 @@ BentProblem::Vector rowOf(const Vector13& derivatives, double by_curvature) {
 
 BentProblem::BentProblem(const ViewProblem& problem,
                          const UnitPoints& points,
-                         double sigma)
+                         double sigma,
+                         bool few)
     : points_(points), limits_(problem.limits(sigma)),
-      planes_(problem.planes(sigma, points)) {}
+      planes_(problem.planes(sigma, points, few)) {}
 
 BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
   Equations e;

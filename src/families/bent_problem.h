@@ -17,8 +17,12 @@ public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
   /** \param[in] points of the problem or fewer; kept by reference
-   * \param[in] sigma of the points */
-  BentProblem(const ViewProblem& problem, const UnitPoints& points, double sigma);
+   * \param[in] sigma of the points \param[in] few whether some of the outline's planes
+   * will do */
+  BentProblem(const ViewProblem& problem,
+              const UnitPoints& points,
+              double sigma,
+              bool few = false);
 
   Equations evaluate(const Superquadric& model) const;
   Superquadric moved(const Superquadric& m, const Vector& step, bool& limited) const;

@@ -25,6 +25,12 @@ void fitTaperAllPoints(const ViewProblem& problem,
                        double sigma,
                        ShapeCandidate& chosen);
 
+/** \brief The upright solid of revolution with a lid below its rim, if that explains
+ * the points better than all candidates. */
+std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
+                                     double sigma,
+                                     const std::vector<ShapeCandidate>& candidates);
+
 /** \brief The best bent rod, if no other family is near the points. */
 std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
                                       double sigma,

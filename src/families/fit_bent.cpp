@@ -3,6 +3,7 @@
 #include "families/bent_problem.h"
 #include "families/families.h"
 #include "families/robust_cost.h"
+#include "geometry/bend.h"
 #include "view_problem/shape_spaces.h"
 
 #include <algorithm>
@@ -15,8 +16,10 @@ namespace {
 /** \brief Cost per observation from which on no family is near the body, as for a
  * taper: where one is, a bend is not looked for. */
 constexpr double MISFIT = 1.3;
-constexpr double WIDE = 0.03;   ///< sigma of the search, in the points' deviation
-constexpr double SLENDER = 2.0; ///< a rod's length over its width at least
+constexpr double WIDE = 0.03;       ///< sigma of the search, in the points' deviation
+constexpr double SLENDER = 2.0;     ///< a rod's length over its width at least
+constexpr double SEEN_LENGTH = 0.6; ///< share of a rod's length that has points
+constexpr double STRAY = 0.02;      ///< share of the points beyond either end
 constexpr double SLIGHT = 0.1;  ///< rad to either side, of a bend that starts straight
 constexpr std::size_t KEPT = 2; ///< starts that are refined
 constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 25;
@@ -92,6 +95,19 @@ bool isRod(const Superquadric& s) {
   return s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff();
 }
 
+/** \brief Whether a rod is seen along most of its length: what is seen of a short
+ * stretch of it may be anything's. */
+bool isSeenAlong(const UnitPoints& points, const Superquadric& s) {
+  std::vector<double> along;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    along.push_back(unbent(s, s.toLocal(points[i].cast<double>())).z());
+  const auto cut = std::ptrdiff_t(STRAY * double(along.size()));
+  std::nth_element(along.begin(), along.begin() + cut, along.end());
+  const double low = along[std::size_t(cut)];
+  std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
+  return *(along.end() - 1 - cut) - low > SEEN_LENGTH * 2.0 * s.semi_axes.z();
+}
+
 bool cheaper(const Rod& a, const Rod& b) {
   return a.cost < b.cost;
 }
@@ -112,7 +128,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
     for (const Superquadric& s : straightStarts(best->model))
       starts.push_back(s);
   const double wide = std::max(WIDE, 2.0 * problem.noise());
-  const BentProblem rough(problem, problem.coarse(), wide);
+  const BentProblem rough(problem, problem.coarse(), wide, true);
   std::vector<Rod> found;
   for (const Superquadric& s : starts)
     if (s.isValid() && isRod(s)) {
@@ -132,7 +148,8 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   const auto take = [&](const Rod& start) {
     const Rod rod = fitRod(thorough, start, ITERATIONS);
     const ShapeCandidate c = candidateOf(rod, problem);
-    if (rod.cost < 1e299 && isRod(rod.model) && (!chosen || c.bic < chosen->bic))
+    if (rod.cost < 1e299 && isRod(rod.model) &&
+        isSeenAlong(problem.medium(), rod.model) && (!chosen || c.bic < chosen->bic))
       chosen = c;
     return rod;
   };

@@ -46,6 +46,19 @@ Latitude latitude(const Superquadric& s, double t) {
           rest / norm};
 }
 
+/** \brief A point of the bent axis: its angle on the circle, how far it lies towards
+ * the circle's centre, and how far along the straight axis. */
+struct Arc {
+  double sine, cosine, inwards, along;
+};
+
+Arc arcAt(const Superquadric& s, double z) {
+  const double half_angle = 0.5 * s.bend * z;
+  const double half = std::sin(half_angle);
+  const double sine = 2.0 * half * std::cos(half_angle), versine = 2.0 * half * half;
+  return {sine, 1.0 - versine, versine / s.bend, sine / s.bend};
+}
+
 /** \brief The place t of the meridian at a height over a3. */
 double placeAt(const Superquadric& s, double height) {
   const double h = std::min(std::abs(height), 1.0);
@@ -56,13 +69,15 @@ double placeAt(const Superquadric& s, double height) {
 } // namespace
 
 BentFrame bentFrame(const Superquadric& s, double z) {
-  const Eigen::Vector3d d = towards(s);
-  const double angle = s.bend * z, half = std::sin(0.5 * angle);
+  const Eigen::Vector3d d = towards(s), across(-d.y(), d.x(), 0.0);
+  const Arc arc = arcAt(s, z);
+  const Eigen::Vector3d inwards = arc.cosine * d - arc.sine * Eigen::Vector3d::UnitZ();
   BentFrame f;
-  f.middle = 2.0 * half * half / s.bend * d;
-  f.middle.z() = std::sin(angle) / s.bend;
-  f.axes =
-      Eigen::AngleAxisd(angle, Eigen::Vector3d(-d.y(), d.x(), 0.0)).toRotationMatrix();
+  f.middle = arc.inwards * d;
+  f.middle.z() = arc.along;
+  f.axes.col(0) = d.x() * inwards - d.y() * across;
+  f.axes.col(1) = d.y() * inwards + d.x() * across;
+  f.axes.col(2) = arc.sine * d + arc.cosine * Eigen::Vector3d::UnitZ();
   return f;
 }
 
@@ -136,29 +151,36 @@ const char* invalidBend(const Superquadric& s) {
 BentContact
 bentContact(const Superquadric& s, const Eigen::Vector3d& n, double low, double high) {
   constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
-  constexpr int SLICES = 24, REFINEMENTS = 30;
+  constexpr int SLICES = 24, REFINEMENTS = 20;
   constexpr double GOLDEN = 0.6180339887498949;
   const double e2 = std::min(s.epsilon2, MAX_SECTION), p = 2.0 / (2.0 - e2);
+  const bool round = e2 == 1.0; // all that fits make
   const Eigen::Vector3d& a = s.semi_axes;
+  const Eigen::Vector3d d = towards(s);
+  const double inwards = d.dot(n), across = d.x() * n.y() - d.y() * n.x();
   struct Slice {
     Latitude at;
-    BentFrame frame;
     Eigen::Vector2d n, size; ///< direction in the section, its semi-axes
     double u, v, norm, reach;
   };
   const auto slice = [&](double t) {
     Slice c;
     c.at = latitude(s, t);
-    c.frame = bentFrame(s, a.z() * c.at.height);
-    c.n = c.frame.axes.leftCols<2>().transpose() * n;
+    const Arc arc = arcAt(s, a.z() * c.at.height);
+    const double in_section = arc.cosine * inwards - arc.sine * n.z();
+    c.n = {in_section * d.x() - across * d.y(), in_section * d.y() + across * d.x()};
     c.size = {a.x() * (1.0 + s.kx * c.at.height), a.y() * (1.0 + s.ky * c.at.height)};
     c.u = std::abs(c.n.x()) * c.size.x();
     c.v = std::abs(c.n.y()) * c.size.y();
-    const double larger = std::max(c.u, c.v), smaller = std::min(c.u, c.v);
-    c.norm = larger > 0.0
-                 ? larger * std::pow(1.0 + std::pow(smaller / larger, p), 1.0 / p)
-                 : 0.0;
-    c.reach = n.dot(c.frame.middle) + c.at.scale * c.norm;
+    if (round)
+      c.norm = std::sqrt(c.u * c.u + c.v * c.v);
+    else {
+      const double larger = std::max(c.u, c.v), smaller = std::min(c.u, c.v);
+      c.norm = larger > 0.0
+                   ? larger * std::pow(1.0 + std::pow(smaller / larger, p), 1.0 / p)
+                   : 0.0;
+    }
+    c.reach = arc.inwards * inwards + arc.along * n.z() + c.at.scale * c.norm;
     return c;
   };
   const double begin = placeAt(s, low), end = placeAt(s, high);

@@ -2,6 +2,7 @@
 // An object as bare points: with a viewpoint, the outline is that of the points as the
 // camera sees them.
 #include "observe/observe_parts.h"
+#include "observe/point_spread.h"
 #include "observe/sheets.h"
 #include "sensor/camera_pose.h"
 #include "sensor/noise.h"
@@ -156,7 +157,11 @@ bool observeBare(Observation& o, std::string& why) {
   // the two sides of a pan's bottom look like one from above, but not from nearby
   if (!viewpoint && !one_sided && hasTwoSides(out.points))
     return true;
-  if (!viewpoint && above_table(Eigen::Vector3d::Zero()) && isCameraFrame(out.points)) {
+  std::optional<PointSpread> spread;
+  if (!viewpoint)
+    spread.emplace(out.points);
+  if (!viewpoint && above_table(Eigen::Vector3d::Zero()) && isCameraFrame(out.points) &&
+      spread->allows(Eigen::Vector3d::Zero())) {
     viewpoint = Eigen::Vector3d::Zero();
     out.notes.push_back("no viewpoint is given; the points lie before the origin "
                         "and each ray from there meets them once: it is taken as the "
@@ -164,7 +169,7 @@ bool observeBare(Observation& o, std::string& why) {
   }
   out.viewpoint_known = bool(viewpoint);
   if (!viewpoint) {
-    viewpoint = guessViewpoint(out.points, one_sided);
+    viewpoint = guessViewpoint(out.points, one_sided, spread->direction());
     if (viewpoint && !above_table(*viewpoint))
       viewpoint.reset();
   }

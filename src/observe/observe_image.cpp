@@ -112,10 +112,10 @@ bool observeImage(Observation& o, std::string& why) {
     out.table = *o.view.table;
   else if (!out.table && o.view.find_table)
     findTable(o, box);
-  checkTable(out);
   // its pixels end above the table, or at what hides them
   if (!has_mask || !o.view.others.cells.empty())
     findFoot(o, box, rim);
+  checkTable(out);
   findFreeSpace(o, box, FREE_MARGIN + (has_mask ? 0 : rim));
   findGap(o, box);
   out.outline_sigma = sharp ? o.view.mask_sigma : 1.5;

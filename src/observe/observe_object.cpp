@@ -59,6 +59,7 @@ namespace {
 /** \brief How well the edge of what hides an object, or of the image, says where it
  * ends, over its size: most of it is seen, or nobody would have pointed at it. */
 constexpr double HIDDEN_SIGMA = 0.05;
+constexpr Eigen::Index FEET = 200; ///< points that are dropped to the table
 
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on: a model ends about there unless evidence says
@@ -71,6 +72,17 @@ void addHiddenEnds(const ObservedObject& object,
   std::vector<ContourPoint> all = object.contour;
   for (ContourPoint& p : all)
     p.own = true;
+  // it stands on the table, however little of it is seen
+  if (object.table && object.hidden_below) {
+    const Eigen::Index step = std::max<Eigen::Index>(1, object.points.cols() / FEET);
+    for (Eigen::Index i = 0; i < object.points.cols(); i += step) {
+      const Eigen::Vector3d p = object.points.col(i);
+      ContourPoint foot;
+      foot.pixel =
+          object.camera.project(p - object.table->height(p) * object.table->normal);
+      all.push_back(foot);
+    }
+  }
   const std::vector<SilhouetteLine> known = silhouetteLines(object.contour, lines);
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
     const bool is_known =

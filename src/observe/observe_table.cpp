@@ -200,12 +200,13 @@ void checkTable(ObservedObject& observed) {
     observed.notes.push_back(
         "the object lies below the table plane, which is left out; check the table and "
         "its sign");
-  else if (relation == TableRelation::FAR)
+  else if (relation == TableRelation::FAR && !observed.hidden_below)
     observed.notes.push_back(
         "the object does not stand on the table plane, which is left out; check the "
         "table");
-  if (relation != TableRelation::UNDER)
-    observed.table.reset();
+  else
+    return;
+  observed.table.reset();
 }
 
 } // namespace pcl_sq::detail

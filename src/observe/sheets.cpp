@@ -7,19 +7,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t NEIGHBOURS = 32, NEAREST = 10;
-constexpr int ROUNDS =
-    4; ///< of fitting a plane to the half of the points nearest to it
+constexpr std::size_t NEIGHBOURS = 32, NEAREST = 8;
+/** \brief Of fitting a plane to the half of the points nearest to it. */
+constexpr int ROUNDS = 4;
 /** \brief Standard deviation over the root mean square of the half of normal values
  * that is nearest to zero. */
 constexpr double OF_HALF = 2.6477;
 constexpr double BEYOND = 4.0; ///< sigmas of another sheet from the own one
 constexpr std::size_t FEWEST = 5;
+constexpr double SLIVER = 0.3; ///< sine of two directions that span a plane
 constexpr double EVEN = 0.25;  ///< mean deviation of another sheet, over its distance
 constexpr double BESIDE = 0.5; ///< of its middle across the normal, over the radius
 /** \brief Share of the surface that is smooth at the least: legs and edges bend within
@@ -30,6 +32,59 @@ constexpr Eigen::Index LOOKED_AT = 200;
 /** \brief Share of doubled sheets from which on the points are those of two sides: in
  * one view they are chance. */
 constexpr double TWO_SIDES = 0.15;
+
+/** \brief Heights of points over a plane, and the half of them that is nearest to it.
+ */
+class Half {
+public:
+  explicit Half(std::size_t count) : height(count), order(count) {
+    std::iota(order.begin(), order.end(), std::size_t(0));
+  }
+  std::size_t size() const { return height.size() / 2; }
+  void choose(const Eigen::Matrix3Xd& points,
+              const std::vector<Eigen::Index>& near,
+              const Eigen::Vector3d& normal,
+              const Eigen::Vector3d& on_plane) {
+    for (std::size_t k = 0; k < near.size(); ++k)
+      height[k] = normal.dot(points.col(near[k]) - on_plane);
+    std::nth_element(order.begin(),
+                     order.begin() + std::ptrdiff_t(size()),
+                     order.end(),
+                     [&](std::size_t a, std::size_t b) {
+                       const double ha = std::abs(height[a]), hb = std::abs(height[b]);
+                       return ha != hb ? ha < hb : a < b;
+                     });
+  }
+  /** \brief Of the nearer half, the farthest. */
+  double reach() const { return std::abs(height[order[size()]]); }
+
+  std::vector<double> height;
+  std::vector<std::size_t> order;
+};
+
+/** \brief The plane through the first point and two near ones to which half of all are
+ * nearest (least median of squares; Rousseeuw 1984): of two sheets closer together than
+ * their points, a plane through all near ones lies across. */
+Eigen::Vector3d ownPlane(const Eigen::Matrix3Xd& points,
+                         const std::vector<Eigen::Index>& near) {
+  const Eigen::Vector3d at = points.col(near[0]);
+  Half half(near.size());
+  Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
+  double least = 1e300;
+  for (std::size_t a = 1; a < NEAREST; ++a)
+    for (std::size_t b = a + 1; b <= NEAREST; ++b) {
+      const Eigen::Vector3d u = points.col(near[a]) - at, v = points.col(near[b]) - at;
+      const Eigen::Vector3d normal = u.cross(v);
+      if (!(normal.norm() > SLIVER * u.norm() * v.norm()))
+        continue;
+      half.choose(points, near, normal.normalized(), at);
+      if (half.reach() < least) {
+        least = half.reach();
+        best = normal.normalized();
+      }
+    }
+  return best;
+}
 
 Sheet sheetAt(const Eigen::Matrix3Xd& points,
               Eigen::Index i,
@@ -42,37 +97,27 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
                  db = (points.col(b) - at).squaredNorm();
     return da != db ? da < db : a < b;
   });
-  std::vector<double> height(n);
-  std::vector<std::size_t> order(n);
-  std::size_t used = NEAREST;
-  for (std::size_t k = 0; k < n; ++k)
-    order[k] = k;
+  Half half(n);
+  half.choose(points, near, ownPlane(points, near), at);
+  const std::vector<double>& height = half.height;
+  const std::vector<std::size_t>& order = half.order;
   double square = 0.0;
   for (int round = 0; round < ROUNDS; ++round) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (std::size_t k = 0; k < used; ++k)
-      mean += points.col(near[order[k]]) / double(used);
-    for (std::size_t k = 0; k < used; ++k) {
+    for (std::size_t k = 0; k < half.size(); ++k)
+      mean += points.col(near[order[k]]) / double(half.size());
+    for (std::size_t k = 0; k < half.size(); ++k) {
       const Eigen::Vector3d d = points.col(near[order[k]]) - mean;
       moments += d * d.transpose();
     }
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
     eigen.computeDirect(moments);
     sheet.normal = eigen.eigenvectors().col(0);
-    for (std::size_t k = 0; k < n; ++k)
-      height[k] = sheet.normal.dot(points.col(near[k]) - mean);
-    used = n / 2;
-    std::nth_element(order.begin(),
-                     order.begin() + std::ptrdiff_t(used),
-                     order.end(),
-                     [&](std::size_t a, std::size_t b) {
-                       const double ha = std::abs(height[a]), hb = std::abs(height[b]);
-                       return ha != hb ? ha < hb : a < b;
-                     });
+    half.choose(points, near, sheet.normal, mean);
     square = 0.0;
-    for (std::size_t k = 0; k < used; ++k)
-      square += std::pow(height[order[k]], 2) / double(used);
+    for (std::size_t k = 0; k < half.size(); ++k)
+      square += std::pow(height[order[k]], 2) / double(half.size());
   }
   const double own = OF_HALF * std::sqrt(square);
   const double radius = (points.col(near.back()) - at).norm();

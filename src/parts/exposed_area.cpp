@@ -35,6 +35,20 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
+/** \brief First-order distance over the reach, from which on a place outside is sure to
+ * be beyond it: of a convex body it is never too large, of a tapered one hardly. */
+constexpr double FARTHER = 2.0;
+
+/** \brief Radius of a ball within a tapered body: that of the straight one, over what
+ * straightening stretches, by the narrowest section and by the shear of the sides. */
+double ballWithin(const Superquadric& s) {
+  const double narrowest = 1.0 - std::max(std::abs(s.kx), std::abs(s.ky));
+  const double shear =
+      (std::abs(s.kx) * s.semi_axes.x() + std::abs(s.ky) * s.semi_axes.y()) /
+      s.semi_axes.z();
+  return s.semi_axes.minCoeff() * narrowest / (1.0 + shear);
+}
+
 } // namespace
 
 SurfaceCells surfaceCells(const Superquadric& part) {
@@ -93,18 +107,24 @@ void keepNearer(const Superquadric& body,
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
   }
-  if (body.isTapered() && !body.isCut()) {
-    // where it matters, at the surface, the first-order distance is as good
-    for (const Eigen::Index i : near) {
+  if (body.isTapered() && !body.isCut() && !body.isBent()) {
+    // foot points of tapered bodies are dear: only of places that may be near enough
+    const double ball = ballWithin(body);
+    const auto far = [&](Eigen::Index i) {
       const Place place = placeOf(body, turn * (points.col(i) - body.center));
+      const double gauge = std::exp(place.gauge.value);
+      if (gauge < 1.0) {
+        // the body holds a ball around the place: (1 - G) times the one in its middle
+        const double depth = (1.0 - gauge) * ball;
+        if (depth < reach[i])
+          return false;
+        distances[i] = std::min(distances[i], -depth);
+        return true;
+      }
       const double slope = logGradient(body, place).norm();
-      // (G - 1) / |grad G|, which does not vanish in the middle as ln G / |grad ln G|
-      const double distance = slope > 0.0 ? (1.0 - std::exp(-place.gauge.value)) / slope
-                                          : -body.semi_axes.minCoeff();
-      if (distance < distances[i])
-        distances[i] = distance;
-    }
-    return;
+      return gauge - 1.0 > FARTHER * reach[i] * gauge * slope;
+    };
+    near.erase(std::remove_if(near.begin(), near.end(), far), near.end());
   }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)

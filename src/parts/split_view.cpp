@@ -25,6 +25,13 @@ struct Split {
   double score = 1e300;
 };
 
+/** \brief Score of a piece without a bend: a bent rod goes through the tops of two
+ * balls, and hides for the time being that they are two. */
+double unbent(const Piece& piece) {
+  return piece.fit.chosen.shape == ShapeClass::BENT ? piece.straight_score
+                                                    : piece.score;
+}
+
 Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
   Split s;
   s.cut = cut;
@@ -47,7 +54,7 @@ bool betterSplit(const Split& a, const Split& b) {
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
   fitPiece(context, s.first, Effort::AGAIN, axis);
   fitPiece(context, s.second, Effort::AGAIN, axis ? axis : axisOf(s.first));
-  s.score = s.first.score + s.second.score;
+  s.score = unbent(s.first) + unbent(s.second);
 }
 
 /** \brief Adds the best cut moved to where its two parts fit better: a bottle's
@@ -123,6 +130,44 @@ Split bestSplit(const PieceContext& context,
   return best;
 }
 
+/** \brief A piece that was cut, and where its two parts are. */
+struct Parting {
+  Piece whole;
+  std::size_t first, second;
+};
+
+/** \brief Joins again what did not pay in the end, from the last cut to the first. The
+ * first of two cuts that pay together may pay only against a straight body: a dumbbell
+ * is a worse pair than a bent rod, and better as three. */
+void takeBack(const std::vector<Parting>& partings,
+              std::vector<Piece>& pieces,
+              double min_gain) {
+  std::vector<double> score(pieces.size());
+  std::vector<std::size_t> belongs_to(pieces.size());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    score[k] = pieces[k].score;
+    belongs_to[k] = k;
+  }
+  std::vector<bool> gone(pieces.size(), false);
+  for (auto p = partings.rbegin(); p != partings.rend(); ++p) {
+    const bool pays = p->whole.score - (score[p->first] + score[p->second]) > min_gain;
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      if (belongs_to[k] == p->first || belongs_to[k] == p->second) {
+        belongs_to[k] = p->first;
+        gone[k] = gone[k] || (!pays && k != p->first);
+      }
+    if (pays) {
+      score[p->first] += score[p->second];
+      continue;
+    }
+    pieces[p->first] = p->whole;
+    score[p->first] = p->whole.score;
+  }
+  for (std::size_t k = pieces.size(); k-- > 0;)
+    if (gone[k])
+      pieces.erase(pieces.begin() + std::ptrdiff_t(k));
+}
+
 /** \brief Merges pairs of parts while one explains them as well as two. */
 void mergeParts(const PieceContext& context,
                 std::vector<Piece>& pieces,
@@ -177,6 +222,7 @@ void splitView(const PieceContext& context,
                int wanted,
                double min_gain) {
   const bool exactly = context.options.parts > 0;
+  std::vector<Parting> partings;
   while (int(pieces.size()) < wanted) {
     Split best;
     std::size_t which = 0;
@@ -185,9 +231,9 @@ void splitView(const PieceContext& context,
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
       Piece body, handle;
+      const double explained = GOOD_FIT * observations(context, piece);
       const bool good =
-          piece.straight_misfit < GOOD_FIT * observations(context, piece) &&
-          !standsOff(context, piece, body, handle);
+          piece.straight_misfit < explained && !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
       Split s =
@@ -195,8 +241,10 @@ void splitView(const PieceContext& context,
                     piece,
                     main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
                     exactly ? 1e299 : piece.straight_score);
-      if (piece.score - s.score > gain) {
-        gain = piece.score - s.score;
+      const double whole =
+          exactly || piece.misfit < explained ? piece.score : unbent(piece);
+      if (whole - s.score > gain) {
+        gain = whole - s.score;
         best = std::move(s);
         which = i;
       } else if (!exactly)
@@ -204,11 +252,14 @@ void splitView(const PieceContext& context,
     }
     if (best.score > 1e299)
       break;
+    partings.push_back({pieces[which], which, pieces.size()});
     pieces[which] = best.first;
     pieces.push_back(best.second);
   }
-  if (!exactly)
-    mergeParts(context, pieces, min_gain);
+  if (exactly)
+    return;
+  takeBack(partings, pieces, min_gain);
+  mergeParts(context, pieces, min_gain);
 }
 
 } // namespace pcl_sq::detail

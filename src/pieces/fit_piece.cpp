@@ -19,23 +19,30 @@ constexpr double PART_EPSILON = 1.0;
 constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
 constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
 
-/** \brief Whether a piece reaches the table: its lowest points are on it, or nobody
- * saw that it ends before. \param[in] whole whether it is all of the object */
-bool reachesTable(const PieceContext& context,
-                  const Eigen::Matrix3Xd& points,
-                  bool whole) {
-  if (!context.observed.table)
-    return false;
-  if (whole && context.observed.hidden_below)
-    return true;
+/** \brief Heights above the table of points, of all but a few. */
+struct Heights {
+  double low, high;
+};
+
+Heights heightsOf(const TableModel& table, const Eigen::Matrix3Xd& points) {
   std::vector<double> heights;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    heights.push_back(context.observed.table->height(points.col(i)));
-  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 33);
+    heights.push_back(table.height(points.col(i)));
+  const auto few = static_cast<std::ptrdiff_t>(heights.size() / 33);
+  const auto low = heights.begin() + few, high = heights.end() - 1 - few;
   std::nth_element(heights.begin(), low, heights.end());
+  const double lowest = *low;
+  std::nth_element(heights.begin(), high, heights.end());
+  return {lowest, *high};
+}
+
+/** \brief Whether a piece reaches the table: its lowest points are on it, or, where
+ * nobody sees the object's foot, they are its lowest. */
+bool reachesTable(const PieceContext& context, const Heights& heights) {
+  const ObservedObject& o = context.observed;
+  const double floor = o.hidden_below ? heightsOf(*o.table, o.points).low : 0.0;
   // the lowest visible points of a body lie somewhat above its bottom's far edge
-  return *low <
-         0.18 * context.observed.extent + 3.0 * context.noise + context.observed.foot;
+  return heights.low - floor < 0.18 * o.extent + 3.0 * context.noise + o.foot;
 }
 
 } // namespace
@@ -57,10 +64,20 @@ void fitPiece(const PieceContext& context,
   if (!context.precision.empty())
     for (const int i : piece.points)
       options.precision.push_back(context.precision[std::size_t(i)]);
+  bool reaches = false;
+  if (o.table && piece.stands) {
+    const Heights heights = heightsOf(*o.table, points);
+    reaches = reachesTable(context, heights);
+    if (reaches && o.hidden_below) // from the top that is seen down to the table
+      options.max_semi_axis = std::max(options.max_semi_axis, 0.75 * heights.high);
+  }
   const bool general = effort == Effort::QUICK || effort == Effort::START;
   options.choose_shape = options.choose_shape && !general;
   options.vessel = options.vessel && piece.stands; // a handle is none
   options.taper = options.taper && piece.stands;   // nor is it a cone
+  // from a wrong place the far side of a solid is its inside
+  if (o.hasCamera() && !o.viewpoint_known && !piece.ends.empty())
+    options.vessel = false;
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;
@@ -71,7 +88,7 @@ void fitPiece(const PieceContext& context,
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
                  context.options.silhouette_lines,
-                 piece.stands && reachesTable(context, points, piece.ends.empty()));
+                 reaches);
   evidence.tangents.insert(
       evidence.tangents.end(), piece.ends.begin(), piece.ends.end());
   evidence.limits.insert(

@@ -18,7 +18,10 @@ constexpr int LEAST_BORDER = 3;    ///< pairs of pixels that make a contact
 constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
 constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
 constexpr double OVERLAP = 0.9; ///< of a footprint's radius: in each other's place
-constexpr double NEAR = 0.5;    ///< of the larger thing's size: belongs to it
+/** \brief The same of two round bodies of one size that touch is 2 over the square root
+ * of 2; a body's own parts are nearer. */
+constexpr double BESIDE = 1.2;
+constexpr double NEAR = 0.5; ///< of the larger thing's size: belongs to it
 
 /** \brief Where things stand: a circle on the table. */
 struct Footprint {
@@ -36,6 +39,8 @@ public:
     joinScraps();
     joinOverlapping();
     joinBodies();
+    joinInterrupted();
+    joinOverlapping();
     joinFloating();
     std::vector<Patch> things;
     for (Patch& patch : list_)
@@ -190,6 +195,26 @@ private:
       if (which.first < 0)
         return;
       join(which.second, which.first);
+    }
+  }
+
+  /** \brief Pieces of one colour between which nothing is seen but what hides their
+   * middle, or nothing at all and they are too near to be two. */
+  void joinInterrupted() {
+    for (bool joined = view_.colors.cols() > 0; joined;) {
+      joined = false;
+      for (int a = 0; a < int(list_.size()) && !joined; ++a)
+        for (int b = 0; b < int(list_.size()) && !joined; ++b) {
+          const Patch &larger = list_[std::size_t(a)], &smaller = list_[std::size_t(b)];
+          if (a == b || !alive(a) || !alive(b) ||
+              larger.pixels.size() < smaller.pixels.size() || !sameColor(a, b))
+            continue;
+          const Between gap = between(view_, larger, smaller);
+          if (gap.background || (!gap.hidden && offset(a, b) > BESIDE))
+            continue;
+          join(b, a);
+          joined = true;
+        }
     }
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/patches.h"
 
+#include "sensor/observation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,6 +16,8 @@ constexpr double SAME_PATCH = 1.5; ///< of whole patches
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
 constexpr double CREASE = 0.7;     ///< angle of normals [rad], concave: a fold
 constexpr double STRAYS = 0.02;    ///< of a patch's pixels
+
+constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
 
 constexpr int RIM = 3;               ///< pixels that matching windows fatten things by
 constexpr double LEAST_INSIDE = 0.1; ///< of the pixels of what is more than a rim
@@ -58,6 +62,53 @@ void measure(const SceneView& view, Patch& patch) {
   };
   patch.low = quantile(STRAYS);
   patch.high = quantile(1.0 - STRAYS);
+}
+
+Eigen::Vector2d pixelOf(int c, int width) {
+  return {double(c % width), double(c / width)};
+}
+
+int nearestTo(const Patch& patch, const Eigen::Vector2d& place, int width) {
+  return *std::min_element(patch.pixels.begin(), patch.pixels.end(), [&](int c, int d) {
+    return (pixelOf(c, width) - place).squaredNorm() <
+           (pixelOf(d, width) - place).squaredNorm();
+  });
+}
+
+int highest(const SceneView& view, const Patch& patch) {
+  int best = patch.pixels.front();
+  double most = -1e300;
+  for (const int c : patch.pixels)
+    if (const double height = view.table.height(view.at(c));
+        height > most && height <= patch.high) { // but strays
+      most = height;
+      best = c;
+    }
+  return best;
+}
+
+/** \brief What lies on a line of the image between two pixels of two patches. */
+Between along(const SceneView& view, int from, int to, const CellMask& own) {
+  const Eigen::Vector2d begin = pixelOf(from, view.width),
+                        end = pixelOf(to, view.width);
+  const auto nearest = double(std::min(view.points(2, from), view.points(2, to)));
+  const int steps = std::max(1, int((end - begin).cwiseAbs().maxCoeff()));
+  int occluder = 0, other = 0;
+  for (int k = 1; k < steps; ++k) {
+    const Eigen::Vector2d at = begin + double(k) / steps * (end - begin);
+    const int x = int(std::lround(at.x())), y = int(std::lround(at.y()));
+    const int c = y * view.width + x;
+    if (own(x, y) || !view.finite(c))
+      continue;
+    const Eigen::Vector3d p = view.at(c);
+    const double slack = standingHeight(view.table, p.z());
+    // the table before two things hides neither
+    ++(p.z() < nearest - slack && view.table.height(p) > slack ? occluder : other);
+  }
+  Between gap;
+  gap.background = double(other) > FEW * double(steps);
+  gap.hidden = !gap.background && occluder > 0;
+  return gap;
 }
 
 } // namespace
@@ -130,6 +181,24 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
   for (Patch& patch : patches.list)
     measure(view, patch);
   return patches;
+}
+
+Between between(const SceneView& view, const Patch& a, const Patch& b) {
+  CellMask own(view.width, view.height);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const int c : b.pixels)
+    middle += pixelOf(c, view.width) / double(b.pixels.size());
+  for (const Patch* patch : {&a, &b})
+    for (const int c : patch->pixels)
+      own.cells[std::size_t(c)] = 1;
+  int from = nearestTo(a, middle, view.width);
+  const int to = nearestTo(b, pixelOf(from, view.width), view.width);
+  from = nearestTo(a, pixelOf(to, view.width), view.width);
+  const Between nearest = along(view, from, to, own);
+  if (nearest.background)
+    return nearest;
+  const Between tops = along(view, highest(view, a), highest(view, b), own);
+  return {nearest.hidden && tops.background, nearest.hidden && !tops.background};
 }
 
 } // namespace pcl_sq::detail

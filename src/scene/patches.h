@@ -28,6 +28,17 @@ struct Patches {
 /** \brief Whether pixels are but a rim, a few wide: no thing by itself. */
 [[nodiscard]] bool isThin(const std::vector<int>& pixels, int width, int height);
 
+/** \brief What is seen between two patches. */
+struct Between {
+  bool background = false; ///< something beside them that hides neither
+  bool hidden = false;     ///< nothing but what hides them
+};
+
+/** \brief Looks along the line between two patches where they are nearest to each
+ * other, and along that between their highest places: what parts one thing in two hides
+ * it from its top to its foot. */
+[[nodiscard]] Between between(const SceneView& view, const Patch& a, const Patch& b);
+
 /** \brief Joins patches that are one thing. */
 [[nodiscard]] std::vector<Patch> joinPatches(const SceneView& view, Patches patches);
 

@@ -119,8 +119,10 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points) {
   return lookFrom(Eigen::Vector3d::Zero(), points).once;
 }
 
-std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all,
-                                              bool one_sided) {
+std::optional<Eigen::Vector3d>
+guessViewpoint(const Eigen::Matrix3Xd& all,
+               bool one_sided,
+               const std::optional<Eigen::Vector3d>& likely) {
   // a few strays would put the middle anywhere
   const Eigen::Index n = all.cols(), cut = n / 50;
   Eigen::Vector3d low, high;
@@ -142,6 +144,11 @@ std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& all,
       points.col(kept++) = all.col(i);
   points.conservativeResize(3, kept);
   const auto some = points.leftCols(std::min(points.cols(), LOOKED_AT));
+  if (likely) {
+    const Eigen::Vector3d place = middle + FAR * extent * *likely;
+    if (lookFrom(place, points).once)
+      return place;
+  }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), roundest = Eigen::Vector3d::Zero();
   double most_bulge = -1e300;
   int passed = 0;

@@ -34,8 +34,12 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points);
 /** \brief A place from which points of one side may have been seen: in the middle of
  * the directions from which each ray meets them once, some way off.
  * \param[in] one_sided whether they are known to be of one side: the likeliest place
- * then, however many there are \return nothing where they may be of several sides */
-std::optional<Eigen::Vector3d> guessViewpoint(const Eigen::Matrix3Xd& points,
-                                              bool one_sided);
+ * then, however many there are
+ * \param[in] likely direction towards it, if that is known
+ * \return nothing where they may be of several sides */
+std::optional<Eigen::Vector3d>
+guessViewpoint(const Eigen::Matrix3Xd& points,
+               bool one_sided,
+               const std::optional<Eigen::Vector3d>& likely = std::nullopt);
 
 } // namespace pcl_sq::detail

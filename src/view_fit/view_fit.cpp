@@ -111,6 +111,9 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (options.bend && options.choose_shape)
     if (const auto bent = fitBent(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*bent);
+  if (options.choose_shape)
+    if (const auto tin = fitLid(problem, general.front().sigma, result.candidates))
+      result.candidates.push_back(*tin);
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),

@@ -125,8 +125,8 @@ LmOptions ViewProblem::limits(double sigma) const {
   return o;
 }
 
-PlaneCost ViewProblem::planes(double sigma, const UnitPoints& points) const {
-  PlaneCost cost = cost_;
+PlaneCost ViewProblem::planes(double sigma, const UnitPoints& points, bool few) const {
+  PlaneCost cost = few ? few_ : cost_;
   cost.unit = unitOf(sigma, points);
   return cost;
 }

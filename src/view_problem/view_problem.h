@@ -39,8 +39,9 @@ public:
 
   /** \brief Bounds and mixture of a fit whose points have the given sigma. */
   LmOptions limits(double sigma) const;
-  /** \brief The planes' cost beside that of \a points of the given sigma. */
-  PlaneCost planes(double sigma, const UnitPoints& points) const;
+  /** \brief The planes' cost beside that of \a points of the given sigma.
+   * \param[in] few whether some of the outline's will do */
+  PlaneCost planes(double sigma, const UnitPoints& points, bool few = false) const;
 
   /** \brief What a residual of one sigma costs, see PlaneCost::unit. */
   double unitOf(double sigma, const UnitPoints& points) const;

@@ -154,6 +154,26 @@ TEST(Evaluation, FiguresOfAKnownDifference) {
   EXPECT_LT(f.axis_error_deg, 1e-4); // a turn about the axis is no error
 }
 
+TEST(Evaluation, HollowThingsAreJudgedFilledUpAndByTheirWalls) {
+  Superquadric bowl;
+  bowl.semi_axes = {0.07, 0.07, 0.05};
+  bowl.rim = 0.2;
+  bowl.wall = 0.005;
+  app::ReferenceShape shape;
+  shape.mesh = meshSuperquadric(bowl);
+  shape.symmetry = app::Symmetry::REVOLUTION;
+  MultiSuperquadric model;
+  model.parts = {bowl};
+  const app::ShapeFigures same = app::evaluateShape(model, shape, 40000);
+  EXPECT_GT(same.iou, 0.98);
+  EXPECT_GT(same.iou_material, 0.93);
+  model.parts[0].wall = 0.0; // the same outside, solid
+  const app::ShapeFigures solid = app::evaluateShape(model, shape, 40000);
+  EXPECT_GT(solid.iou, 0.98);
+  EXPECT_NEAR(solid.iou_material, solid.true_volume / solid.model_volume, 0.01);
+  EXPECT_LT(solid.iou_material, 0.4);
+}
+
 TEST(Evaluation, AxisErrorsAreModuloTheSymmetry) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   const auto turned = [](double degrees, const Eigen::Vector3d& axis) {

@@ -297,7 +297,7 @@ TEST(ObserveObject, BarePointsOfOneSideGetACameraOnThatSide) {
       const Eigen::Vector3d truly =
           -(rotation * object.rowwise().mean()).cast<double>().normalized();
       const Eigen::Vector3d guessed = (observed.camera.center - middle).normalized();
-      EXPECT_GT(guessed.dot(truly), 0.75);
+      EXPECT_GT(guessed.dot(truly), 0.95);
     }
   }
 }

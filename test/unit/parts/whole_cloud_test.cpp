@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 using namespace pcl_sq;
 using namespace pcl_sq::test;
@@ -63,7 +64,7 @@ Eigen::Matrix3Xd pan() {
     const double radius = 0.12 * std::sqrt(random.uniform(0.0, 1.0));
     const double turn = random.uniform(0.0, 6.283);
     points.col(i) << radius * std::cos(turn), radius * std::sin(turn),
-        0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.012);
+        0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.004);
   }
   return points;
 }
@@ -90,11 +91,25 @@ TEST(CloudGraph, LegsOfATableAreItsLimbs) {
   EXPECT_EQ(graph.components(all).size(), 1u);
   bool found = false;
   for (const auto& segments : graph.limbs(all, Eigen::Matrix3d::Identity(), 24)) {
-    found = found || segments.size() == std::size_t(LEGS + 1);
     std::size_t points_of_all = 0;
     for (const auto& segment : segments)
       points_of_all += segment.size();
     EXPECT_EQ(points_of_all, all.size()) << "each point is in one segment";
+    found = found || segments.size() == std::size_t(LEGS + 1);
+    if (segments.size() != std::size_t(LEGS + 1))
+      continue;
+    // each leg as a whole, and no two in one
+    std::set<std::size_t> owners;
+    for (std::size_t leg = 1; leg < object.size(); ++leg) {
+      std::set<std::size_t> own;
+      for (std::size_t k = 0; k < segments.size(); ++k)
+        for (const int i : segments[k])
+          if (points(2, i) < 0.6 && object.parts[leg].gauge(points.col(i)) < 1.1)
+            own.insert(k);
+      EXPECT_EQ(own.size(), 1u) << "leg " << leg;
+      owners.insert(own.begin(), own.end());
+    }
+    EXPECT_EQ(owners.size(), std::size_t(LEGS));
   }
   EXPECT_TRUE(found) << "no way shows the legs and the top";
 }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cans and tins: a solid of revolution whose lid lies somewhat below its rim. The rim
+// makes the outline, the lid has the points.
+#include "families/families.h"
+#include "view_problem/shape_spaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+/** \brief Deepest lid, over the body's radius: deeper, the inside of the wall is seen
+ * as well, and the body is an open vessel. */
+constexpr double DEEPEST = 0.25;
+constexpr double WITHIN = 0.85; ///< of the radius: on the lid, clear of the rim
+constexpr double LEAST = 0.05;  ///< of the points, that are a lid
+constexpr int ROUNDS = 3, ITERATIONS = 12;
+
+/** \brief Which points lie on the lid of an upright body, and how far below its top
+ * most of them are. */
+struct Lid {
+  std::vector<std::size_t> points;
+  double depth = 0.0;
+};
+
+Lid lidOf(const UnitPoints& points, const Superquadric& body, double sigma) {
+  Lid lid;
+  const double a3 = body.semi_axes.z(), radius = body.semi_axes.x();
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d q =
+        body.rotation.transpose() * (points[i].cast<double>() - body.center);
+    if (q.head<2>().norm() > WITHIN * radius ||
+        q.z() < a3 - DEEPEST * radius - 3.0 * sigma)
+      continue;
+    lid.points.push_back(i);
+    depths.push_back(a3 - q.z());
+  }
+  if (double(depths.size()) < LEAST * double(points.size())) {
+    lid.points.clear();
+    return lid;
+  }
+  const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  lid.depth = std::clamp(*middle, 0.0, DEEPEST * radius);
+  return lid;
+}
+
+/** \brief The points with those of the lid lifted to the rim. */
+UnitPoints lifted(const UnitPoints& points, const Lid& lid, const Eigen::Vector3d& up) {
+  const kernels::Points all = points.view();
+  std::vector<bool> on_lid(points.size(), false);
+  for (const std::size_t i : lid.points)
+    on_lid[i] = true;
+  UnitPoints result;
+  result.reserve(points.size());
+  const Eigen::Vector3f lift = (lid.depth * up).cast<float>();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f p = on_lid[i] ? points[i] + lift : points[i];
+    result.add(p.x(), p.y(), p.z());
+  }
+  if (all.precision)
+    result.setPrecision({all.precision, all.precision + points.size()});
+  return result;
+}
+
+} // namespace
+
+std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
+                                     double sigma,
+                                     const std::vector<ShapeCandidate>& candidates) {
+  const ShapeCandidate *best = nullptr, *round = nullptr;
+  for (const ShapeCandidate& c : candidates) {
+    if (!best || c.bic < best->bic)
+      best = &c;
+    if (c.shape == ShapeClass::ROTATIONAL && c.upright && !c.on_axis)
+      round = &c;
+  }
+  if (!round || !problem.hasUp() || !problem.eye() ||
+      (best == round && round->cost < problem.observations()))
+    return std::nullopt;
+  Trial t;
+  t.model = round->model;
+  t.sigma = sigma;
+  if (t.model.rotation.col(2).dot(problem.up()) < 0.0) { // its z axis up: half a turn
+    t.model.rotation.col(2) *= -1.0;
+    t.model.rotation.col(1) *= -1.0;
+  }
+  const ParameterSpace space = standing(spaceOf(ShapeClass::ROTATIONAL), 2);
+  Lid lid;
+  for (int i = 0; i < ROUNDS; ++i) {
+    lid = lidOf(problem.medium(), t.model, sigma);
+    if (lid.points.empty())
+      return std::nullopt;
+    t = problem.minimise(t,
+                         lifted(problem.medium(), lid, problem.up()),
+                         kernels::Residual::FOOT_POINT,
+                         ITERATIONS,
+                         space);
+    if (!(t.cost < best->bic)) // nor does it become the best
+      return std::nullopt;
+  }
+  ShapeCandidate c = *round;
+  c.model = t.model;
+  c.cost = t.cost;
+  c.parameters = static_cast<int>(space.basis.cols()) + 1;
+  c.bic = c.cost + c.parameters * std::log(problem.observations());
+  if (!(lid.depth > 0.0) || !(c.bic < best->bic))
+    return std::nullopt;
+  return c;
+}
+
+} // namespace pcl_sq::detail

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/point_spread.h"
+
+#include "sensor/local_quadric.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr Eigen::Index PATCHES = 400, FEWEST = 100;
+constexpr std::size_t NEIGHBOURS = 12; ///< whose reach is the density's measure
+constexpr std::size_t PLANE = 24;      ///< neighbours that give the normal
+constexpr std::size_t AROUND_IT = 96;  ///< that tell on which side it bulges
+constexpr double GRAZING = 0.1;        ///< least cosine that counts: noise is thicker
+constexpr double FAR = 6.0;            ///< camera that is looked for, in half diagonals
+constexpr int DIRECTIONS = 200, AROUND = 24;
+constexpr double SPACING = 0.14; ///< half a step between directions [rad]
+/** \brief How much more uneven a place's image may be than another's: the scatter
+ * of as many patches is known to 5 %, and this is four times the deviation of
+ * two. */
+constexpr double MORE = 1.25;
+
+/** \brief Mean distance to the median: a small face of a box counts as well, which the
+ * median distance would not see. */
+double deviation(const std::vector<double>& values) {
+  const double middle = median(values);
+  double sum = 0.0;
+  for (const double v : values)
+    sum += std::abs(v - middle);
+  return sum / double(values.size());
+}
+
+} // namespace
+
+PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index n = points.cols();
+  if (n < FEWEST)
+    return;
+  Neighbourhood neighbourhood(points, 1);
+  const Eigen::Index step = std::max<Eigen::Index>(1, n / PATCHES);
+  Eigen::AlignedBox3d box;
+  std::vector<double> densities;
+  for (Eigen::Index i = 0; i < n; i += step)
+    if (const std::optional<Patch> patch =
+            patchOf(points, i, neighbourhood.of(i, AROUND_IT))) {
+      patches_.push_back(*patch);
+      densities.push_back(patch->density);
+      box.extend(patch->place);
+    }
+  if (Eigen::Index(patches_.size()) < FEWEST)
+    return;
+  const double distance = FAR * 0.5 * box.diagonal().norm();
+  Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
+  least_ = 1e300;
+  const auto look = [&](const Eigen::Vector3d& direction) {
+    // the opposite one is as even
+    const double uneven = unevenness(box.center() + distance * direction);
+    if (uneven < least_) {
+      least_ = uneven;
+      best = direction;
+    }
+  };
+  for (int i = 0; i < DIRECTIONS; ++i) {
+    // Fibonacci's spiral: about equally many everywhere on the sphere
+    const double z = 1.0 - (2.0 * i + 1.0) / DIRECTIONS;
+    const double turn = i * 2.399963229728653; // the golden angle
+    const double r = std::sqrt(1.0 - z * z);
+    look({r * std::cos(turn), r * std::sin(turn), z});
+  }
+  const Eigen::Vector3d rough = best, across = rough.unitOrthogonal();
+  for (int i = 0; i < AROUND; ++i) {
+    const double turn = i * 2.399963229728653;
+    const double away = SPACING * std::sqrt((i + 0.5) / AROUND);
+    look((rough +
+          away * (std::cos(turn) * across + std::sin(turn) * rough.cross(across)))
+             .normalized());
+  }
+  if (!(least_ < deviation(densities)))
+    return;
+  std::vector<double> bulges;
+  for (const Patch& patch : patches_)
+    bulges.push_back(patch.normal.dot(best) > 0.0 ? patch.bulge : -patch.bulge);
+  direction_ = median(std::move(bulges)) > 0.0 ? best : -best;
+}
+
+std::optional<PointSpread::Patch> PointSpread::patchOf(const Eigen::Matrix3Xd& points,
+                                                       Eigen::Index middle,
+                                                       std::vector<Eigen::Index> near) {
+  const auto distance = [&](Eigen::Index k) {
+    return (points.col(k) - points.col(middle)).squaredNorm();
+  };
+  std::sort(near.begin(), near.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return distance(a) < distance(b);
+  });
+  const auto meanOf = [&](std::size_t begin, std::size_t end) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t k = begin; k < end; ++k)
+      mean += points.col(near[k]) / double(end - begin);
+    return mean;
+  };
+  const Eigen::Vector3d mean = meanOf(0, PLANE);
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < PLANE; ++k)
+    square += (points.col(near[k]) - mean) * (points.col(near[k]) - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(square);
+  const double reach = distance(near[NEIGHBOURS]);
+  if (!(reach > 0.0) || eigen.info() != Eigen::Success)
+    return std::nullopt;
+  const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+  return Patch{points.col(middle),
+               normal,
+               -std::log(reach),
+               normal.dot(mean - meanOf(PLANE, near.size()))};
+}
+
+double PointSpread::unevenness(const Eigen::Vector3d& place) const {
+  std::vector<double> in_image;
+  for (const Patch& patch : patches_) {
+    const Eigen::Vector3d ray = patch.place - place;
+    const double length = std::max(ray.norm(), 1e-9);
+    const double cosine = std::abs(patch.normal.dot(ray)) / length;
+    in_image.push_back(patch.density - std::log(std::max(cosine, GRAZING)) +
+                       2.0 * std::log(length));
+  }
+  return deviation(in_image);
+}
+
+bool PointSpread::allows(const Eigen::Vector3d& place) const {
+  return !direction_ || unevenness(place) < MORE * least_;
+}
+
+} // namespace pcl_sq::detail
