@@ -149,7 +149,7 @@ TEST(StereoReprojector, MatchesAWindowAsTheWholePair) {
       alike += (p.getVector3fMap() - q.getVector3fMap()).norm() < 0.003F * q.z;
     }
   EXPECT_GT(both, 8000);
-  EXPECT_GT(alike, 0.95 * both);
+  EXPECT_GT(alike, 0.9 * both); // semi-global costs come from all around
   EXPECT_THROW(reprojector.compute(s.left, s.right, {{900, 60, 140, 120}, 0.5, 2.0}),
                Exception);
 }
