@@ -61,12 +61,13 @@ function(pcl_sq_component name)
   endforeach()
 endfunction()
 
-# pcl_sq_plug_in(NAME COMPONENT USERS targets... SOURCES ... LIBS ...)
+# pcl_sq_plug_in(NAME COMPONENT USERS targets... SOURCES ... [COMMON ...] LIBS ...)
 # What few runs of a shared library or a program need and takes long to load: a library
 # pcl_sq_NAME.so that USERS load on first use (src/util/plug_in.h), installed with
 # COMPONENT. Its objects are the target pcl_sq_NAME_objects, for tests.
+# COMMON: sources of the component that the plug-in needs too, for libraries hide theirs.
 function(pcl_sq_plug_in name component)
-  cmake_parse_arguments(ARG "" "" "USERS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "USERS;SOURCES;COMMON;LIBS" ${ARGN})
   set(objects pcl_sq_${name}_objects)
   add_library(${objects} OBJECT ${ARG_SOURCES})
   set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -74,7 +75,10 @@ function(pcl_sq_plug_in name component)
   target_include_directories(${objects} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${objects} PUBLIC ${ARG_LIBS})
   pcl_sq_warnings(${objects})
-  add_library(pcl_sq_${name} MODULE $<TARGET_OBJECTS:${objects}>)
+  add_library(pcl_sq_${name} MODULE $<TARGET_OBJECTS:${objects}> ${ARG_COMMON})
+  target_compile_definitions(pcl_sq_${name} PRIVATE PCL_SQ_BUILDING)
+  target_include_directories(pcl_sq_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  pcl_sq_warnings(pcl_sq_${name})
   set_target_properties(pcl_sq_${name} PROPERTIES PREFIX ""
     LIBRARY_OUTPUT_DIRECTORY "${PCL_SQ_PLUG_IN_BUILD_DIR}" INSTALL_RPATH "$ORIGIN/..")
   target_link_libraries(pcl_sq_${name} PRIVATE ${ARG_LIBS})

@@ -3,13 +3,31 @@
 // steps within a trust region, bounds, held directions.
 #pragma once
 
-#include "families/robust_cost.h"
 #include "view_problem/view_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 namespace pcl_sq::detail {
+
+/** \brief A Gaussian of peak one beside a uniform density c (M5); what kernels::Mixture
+ * says for one residual. */
+struct RobustCost {
+  double sigma, c;
+
+  /** \brief -2 sigma^2 ln of the density over the largest, which is the square itself
+   * for c = 0. \param[out] share of the Gaussian in the density */
+  double cost(double square, double& share) const {
+    share = 1.0;
+    if (!(c > 0.0))
+      return square;
+    const double s = 0.5 / (sigma * sigma);
+    const double density = std::exp(-s * square);
+    share = density / (density + c);
+    return (std::log1p(c) - std::log(density + c)) / s;
+  }
+};
 
 /** \brief A row of a point at a signed distance, weighted by the mixture (M5). The
  * lower half of jtj is filled. */

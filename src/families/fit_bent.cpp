@@ -2,7 +2,7 @@
 // The family of bent rods: bananas, handles.
 #include "families/bent_problem.h"
 #include "families/families.h"
-#include "families/robust_cost.h"
+#include "families/family_step.h"
 #include "geometry/bend.h"
 #include "view_problem/shape_spaces.h"
 

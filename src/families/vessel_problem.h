@@ -2,7 +2,7 @@
 // Private. Least squares over the parameters of an open vessel of revolution.
 #pragma once
 
-#include "families/robust_cost.h"
+#include "families/family_step.h"
 #include "families/vessel_profile.h"
 #include "view_problem/view_problem.h"
 

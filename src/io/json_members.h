@@ -4,6 +4,7 @@
 
 #include "io/json_text.h"
 #include "pcl_sq/config.h"
+#include "pcl_sq/file_io.h"
 #include "pcl_sq/model_io.h"
 
 #include <Eigen/Core>
@@ -158,6 +159,24 @@ bool readText(const std::string& text,
   file = {};
   if (why)
     *why = reason;
+  return false;
+}
+
+/** \brief Reads a file by name. \param[in] kind what it should be, "model"
+ * \param[out] file cleared on failure \param[out] why optional */
+template <class File>
+bool loadFile(const std::string& path,
+              const std::string& kind,
+              File& file,
+              std::string* why) {
+  file = {};
+  std::string text, reason;
+  if (!readFile(path, text, why))
+    return false;
+  if (fromJson(text, file, &reason))
+    return true;
+  if (why)
+    *why = "'" + path + "' is no " + kind + " file: " + reason;
   return false;
 }
 

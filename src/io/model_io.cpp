@@ -154,4 +154,12 @@ bool fromJson(const std::string& text, ModelFile& file, std::string* why) {
   return readText(text, "a model", readModel, file, why);
 }
 
+bool saveModel(const std::string& path, const ModelFile& file, std::string* why) {
+  return writeFile(path, toJson(file) + "\n", why);
+}
+
+bool loadModel(const std::string& path, ModelFile& file, std::string* why) {
+  return loadFile(path, "model", file, why);
+}
+
 } // namespace pcl_sq

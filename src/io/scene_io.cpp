@@ -126,4 +126,12 @@ bool fromJson(const std::string& text, SceneFile& file, std::string* why) {
   return readText(text, "a scene", read, file, why);
 }
 
+bool saveScene(const std::string& path, const SceneFile& file, std::string* why) {
+  return writeFile(path, toJson(file) + "\n", why);
+}
+
+bool loadScene(const std::string& path, SceneFile& file, std::string* why) {
+  return loadFile(path, "scene", file, why);
+}
+
 } // namespace pcl_sq

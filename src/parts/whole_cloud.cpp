@@ -42,7 +42,7 @@ struct Description {
   double score = 1e300;
 };
 
-/** \brief M27: the search for the description that costs least. */
+/** \brief M28: the search for the description that costs least. */
 class WholeSearch {
 public:
   WholeSearch(const PieceContext& context, int wanted, bool exactly, double min_gain)

@@ -98,6 +98,19 @@ TEST(StereoPipeline, LooksAnewWhereTheSceneIsAnotherOne) {
   EXPECT_GT(overlap(object.view.segment.mask, other.mask), 0.8);
 }
 
+TEST(StereoPipeline, LooksAnewWhereTheThingHasOtherColours) {
+  const StereoScene s = renderScene("can");
+  StereoPipeline pipeline = pipelineFor(s);
+  pipeline.setFollowing(true);
+  StereoObject first, next;
+  ASSERT_TRUE(pipeline.process(s.left, s.right, first)) << first.failure;
+  for (const std::uint64_t seed : {2, 3, 4, 5}) {
+    const StereoScene other = renderScene("can", 1.0, seed);
+    ASSERT_TRUE(pipeline.process(other.left, other.right, next)) << next.failure;
+    EXPECT_LT((centerOf(next) - centerOf(first)).norm(), 0.005) << seed;
+  }
+}
+
 TEST(StereoPipeline, SaysWhyThereIsNoModelAndGoesOn) {
   const StereoScene s = renderScene("can");
   StereoPipeline pipeline = pipelineFor(s);
@@ -136,7 +149,7 @@ TEST(StereoReprojector, MatchesAWindowAsTheWholePair) {
       alike += (p.getVector3fMap() - q.getVector3fMap()).norm() < 0.003F * q.z;
     }
   EXPECT_GT(both, 8000);
-  EXPECT_GT(alike, 0.95 * both);
+  EXPECT_GT(alike, 0.9 * both); // semi-global costs come from all around
   EXPECT_THROW(reprojector.compute(s.left, s.right, {{900, 60, 140, 120}, 0.5, 2.0}),
                Exception);
 }

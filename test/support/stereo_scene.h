@@ -29,7 +29,9 @@ inline cv::Mat toMat(app::RenderedImage image) {
   return cv::Mat(image.height, image.width, CV_8UC3, image.bgr.data()).clone();
 }
 
-inline StereoScene renderScene(const std::string& name, double noise = 1.0) {
+/** \param[in] seed of the textures and the noise */
+inline StereoScene
+renderScene(const std::string& name, double noise = 1.0, std::uint64_t seed = 1) {
   StereoScene s;
   s.object = app::makeObject(name);
   s.rig = app::makeRig(320, 240, 405.8, 0.12);
@@ -37,6 +39,7 @@ inline StereoScene renderScene(const std::string& name, double noise = 1.0) {
   s.scene = app::placeOnTable(s.object.box(), center, s.object.yaw, 0.17);
   s.scene.color = s.object.color;
   s.scene.noise_sigma = noise;
+  s.scene.seed = seed;
   const app::MeshBvh mesh(s.object.mesh);
   s.left = toMat(app::render(s.scene, mesh, s.rig.left, 0));
   s.right = toMat(app::render(s.scene, mesh, s.rig.right, 1));

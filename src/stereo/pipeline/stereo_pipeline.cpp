@@ -20,8 +20,9 @@ namespace {
  * far as a table around the object is seen, too. */
 constexpr double REACH = 0.25;
 /** \brief Share of two outlines that both hold of what any of them holds, below which
- * they are not those of one thing a moment later. */
-constexpr double SAME = 0.5;
+ * they are not those of one thing a moment later. Looking anew costs time and nothing
+ * else, an outline that is wrong costs the model: a can of another colour kept 0.5. */
+constexpr double SAME = 0.8;
 
 cv::Rect rectOf(const CellRect& r) {
   return {r.x, r.y, r.width, r.height};
