@@ -4,6 +4,7 @@
 #include "scene/one_body.h"
 #include "scene/patches.h"
 #include "sensor/observation.h"
+#include "util/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +17,19 @@ constexpr std::size_t SCRAP = 150; ///< pixels too few for a body of their own
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
 constexpr int LEAST_BORDER = 3;    ///< pairs of pixels that make a contact
 constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
+/** \brief The same where no body need explain both: printed things of many colours are
+ * alike in the mean. */
+constexpr double ONE_COLOR = 0.75;
 constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
 constexpr double OVERLAP = 0.9; ///< of a footprint's radius: in each other's place
 /** \brief The same of two round bodies of one size that touch is 2 over the square root
  * of 2; a body's own parts are nearer. */
 constexpr double BESIDE = 1.2;
-constexpr double NEAR = 0.5; ///< of the larger thing's size: belongs to it
-
-/** \brief Where things stand: a circle on the table. */
-struct Footprint {
-  Eigen::Vector3d middle;
-  double radius = 0.0;
-};
+/** \brief Of a carrying thing's pixels, that show the face on which another stands, and
+ * standing heights within which that is level. */
+constexpr double LEDGE = 0.15, LEVEL = 2.0;
+constexpr double AS_LARGE = 0.5; ///< over the carrying thing's pixels
+constexpr double NEAR = 0.5;     ///< of the larger thing's size: belongs to it
 
 class Joiner {
 public:
@@ -133,27 +135,15 @@ private:
     return pairs;
   }
 
-  bool sameColor(int a, int b) const {
+  bool sameColor(int a, int b, double limit = SAME_COLOR) const {
     return colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums) <
-           SAME_COLOR;
-  }
-
-  Footprint footprintOf(const Patch& p) const {
-    Footprint f;
-    const Eigen::Vector3d n = view_.table.normal;
-    const Eigen::Vector3d middle = p.sums.mean();
-    const Eigen::Matrix3d spread =
-        p.sums.square / p.sums.count - middle * middle.transpose();
-    const double across = std::max(0.0, spread.trace() - n.dot(spread * n));
-    f.middle = middle - view_.table.height(middle) * n;
-    f.radius = 2.0 * std::sqrt(across); // of a ring; more of a disc
-    return f;
+           limit;
   }
 
   /** \brief Distance of two footprints over the larger one's radius. */
   double offset(int a, int b) const {
-    const Footprint fa = footprintOf(list_[std::size_t(a)]);
-    const Footprint fb = footprintOf(list_[std::size_t(b)]);
+    const Footprint fa = footprintOf(view_.table, list_[std::size_t(a)]);
+    const Footprint fb = footprintOf(view_.table, list_[std::size_t(b)]);
     return (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
   }
 
@@ -167,7 +157,8 @@ private:
           if (a != b && alive(a) && alive(b) &&
               list_[std::size_t(a)].pixels.size() >=
                   list_[std::size_t(b)].pixels.size() &&
-              view_.colors.cols() > 0 && sameColor(a, b) && offset(a, b) < OVERLAP) {
+              view_.colors.cols() > 0 && sameColor(a, b, ONE_COLOR) &&
+              offset(a, b) < OVERLAP) {
             join(b, a);
             joined = true;
           }
@@ -176,22 +167,26 @@ private:
 
   void joinBodies() {
     for (;;) {
+      const std::vector<std::pair<int, int>> pairs = candidates();
+      std::vector<std::pair<int, int>> fresh;
+      for (const auto& pair : pairs)
+        if (gains_.count(pair) == 0)
+          fresh.push_back(pair);
+      std::vector<double> gains(fresh.size());
+      parallelFor(fresh.size(), view_.threads, [&](std::size_t i) {
+        gains[i] = gainOfOneBody(view_,
+                                 list_[std::size_t(fresh[i].first)].pixels,
+                                 list_[std::size_t(fresh[i].second)].pixels);
+      });
+      for (std::size_t i = 0; i < fresh.size(); ++i)
+        gains_[fresh[i]] = gains[i];
       double best = 0.0;
       std::pair<int, int> which{-1, -1};
-      for (const auto& pair : candidates()) {
-        auto known = gains_.find(pair);
-        if (known == gains_.end())
-          known = gains_
-                      .emplace(pair,
-                               gainOfOneBody(view_,
-                                             list_[std::size_t(pair.first)].pixels,
-                                             list_[std::size_t(pair.second)].pixels))
-                      .first;
-        if (known->second > best) {
-          best = known->second;
+      for (const auto& pair : pairs)
+        if (const double gain = gains_.at(pair); gain > best) {
+          best = gain;
           which = pair;
         }
-      }
       if (which.first < 0)
         return;
       join(which.second, which.first);
@@ -207,7 +202,8 @@ private:
         for (int b = 0; b < int(list_.size()) && !joined; ++b) {
           const Patch &larger = list_[std::size_t(a)], &smaller = list_[std::size_t(b)];
           if (a == b || !alive(a) || !alive(b) ||
-              larger.pixels.size() < smaller.pixels.size() || !sameColor(a, b))
+              larger.pixels.size() < smaller.pixels.size() ||
+              !sameColor(a, b, ONE_COLOR))
             continue;
           const Between gap = between(view_, larger, smaller);
           if (gap.background || (!gap.hidden && offset(a, b) > BESIDE))
@@ -224,7 +220,8 @@ private:
       double best = 1e300;
       int from = -1, into = -1;
       for (int a = 0; a < int(list_.size()); ++a) {
-        if (!alive(a) || stands(list_[std::size_t(a)]))
+        if (!alive(a) || stands(list_[std::size_t(a)]) || isCarried(a) ||
+            isHiddenBelow(a))
           continue;
         for (int b = 0; b < int(list_.size()); ++b) {
           if (b == a || !alive(b) ||
@@ -244,6 +241,46 @@ private:
     }
   }
 
+  /** \brief Whether a patch stands on a ledge of another thing: a level face at its
+   * foot that shows beside it. A lid or a cap leaves none. */
+  bool isCarried(int a) const {
+    const Patch& thing = list_[std::size_t(a)];
+    if (thing.pixels.size() < SCRAP || isThin(thing.pixels, view_.width, view_.height))
+      return false;
+    const double slack = LEVEL * standingHeight(view_.table, thing.sums.mean().z());
+    for (int b = 0; b < int(list_.size()); ++b) {
+      const auto border = borders_.find(std::minmax(a, b));
+      if (b == a || !alive(b) || border == borders_.end() || !touches(border->second) ||
+          (view_.colors.cols() > 0 && sameColor(a, b)))
+        continue;
+      const std::vector<int>& pixels = list_[std::size_t(b)].pixels;
+      const auto level = std::count_if(pixels.begin(), pixels.end(), [&](int c) {
+        return std::abs(view_.table.height(view_.at(c)) - thing.low) < slack;
+      });
+      if (double(level) > std::max(double(SCRAP), LEDGE * double(pixels.size())) ||
+          double(thing.pixels.size()) > AS_LARGE * double(pixels.size()))
+        return true;
+    }
+    return false;
+  }
+
+  /** \brief Whether a patch ends at another thing before it, lower down, which may hide
+   * its foot. */
+  bool isHiddenBelow(int a) const {
+    const Patch& thing = list_[std::size_t(a)];
+    for (const auto& [pair, border] : borders_) {
+      if ((pair.first != a && pair.second != a) || touches(border) ||
+          border.pairs < LEAST_BORDER || thing.pixels.size() < SCRAP)
+        continue;
+      const int b = pair.first == a ? pair.second : pair.first;
+      const Patch& other = list_[std::size_t(b)];
+      if (alive(b) && stands(other) && !sameColor(a, b) &&
+          other.sums.mean().z() < thing.sums.mean().z())
+        return view_.colors.cols() > 0;
+    }
+    return false;
+  }
+
   /** \brief How far a floating patch is from another, in sizes; infinite beyond reach.
    */
   double apart(int a, int b) const {
@@ -252,8 +289,8 @@ private:
         colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums);
     if (border != borders_.end() && touches(border->second))
       return 0.1 * color / double(border->second.pairs);
-    const Footprint fa = footprintOf(list_[std::size_t(a)]);
-    const Footprint fb = footprintOf(list_[std::size_t(b)]);
+    const Footprint fa = footprintOf(view_.table, list_[std::size_t(a)]);
+    const Footprint fb = footprintOf(view_.table, list_[std::size_t(b)]);
     const double gap = (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
     if (color > SAME_COLOR || gap > 1.0 + NEAR)
       return 1e300;

@@ -66,6 +66,7 @@ double gainOfOneBody(const SceneView& view,
     options.max_semi_axis = 1.5 * halfDiagonal(points[k]);
     options.starts = STARTS;
     options.taper = false;
+    options.bend = false; // too dear for a question that points alone decide
     const ViewFit fit = fitView(points[k], evidence, options);
     // too few points for a body are too few to be a thing
     if (!fit.fit.ok())

@@ -113,6 +113,17 @@ Between along(const SceneView& view, int from, int to, const CellMask& own) {
 
 } // namespace
 
+Footprint footprintOf(const TableModel& table, const Patch& patch) {
+  Footprint f;
+  const Eigen::Vector3d n = table.normal, middle = patch.sums.mean();
+  const Eigen::Matrix3d spread =
+      patch.sums.square / patch.sums.count - middle * middle.transpose();
+  const double across = std::max(0.0, spread.trace() - n.dot(spread * n));
+  f.middle = middle - table.height(middle) * n;
+  f.radius = 2.0 * std::sqrt(across);
+  return f;
+}
+
 bool isThin(const std::vector<int>& pixels, int width, int height) {
   CellMask mask(width, height);
   for (const int c : pixels)

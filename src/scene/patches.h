@@ -16,6 +16,13 @@ struct Patch {
   double low = 0.0, high = 0.0; ///< heights above the table of all but strays [m]
 };
 
+/** \brief Where a patch stands: a circle on the table. */
+struct Footprint {
+  Eigen::Vector3d middle;
+  double radius = 0.0; ///< of a ring; more of a disc
+};
+[[nodiscard]] Footprint footprintOf(const TableModel& table, const Patch& patch);
+
 struct Patches {
   std::vector<Patch> list;
   std::vector<int> of_pixel;                     ///< -1: none

@@ -146,7 +146,8 @@ bool SceneEstimator::tellApart() {
                          input_.height,
                          input_.colors,
                          camera,
-                         CameraPose(camera_).toCamera(*scene_.table)};
+                         CameraPose(camera_).toCamera(*scene_.table),
+                         threads_};
     SceneSegments segments = segmentScene(view, options_.min_pixels);
     scene_.labels = std::move(segments.labels);
     outlined_ = std::move(segments.outlined);

@@ -97,7 +97,7 @@ int countThings(const ObservedObject& object,
   camera.center.setZero();
   camera.rotation.setIdentity();
   const SceneView view{
-      seen, mask.width, mask.height, colors, camera, pose.toCamera(*object.table)};
+      seen, mask.width, mask.height, colors, camera, pose.toCamera(*object.table), 1};
   CellMask pixels = mask;
   for (std::size_t i = 0; i < pixels.cells.size(); ++i)
     if (const int c = int(i); pixels.cells[i])

@@ -13,6 +13,7 @@ struct SceneView {
   const ColorMatrix& colors; ///< empty: none
   PinholeCamera camera;      ///< at the origin
   TableModel table;          ///< in the camera's frame
+  unsigned int threads = 1;  ///< 0: all cores
 
   bool finite(int c) const { return points.col(c).allFinite(); }
   Eigen::Vector3d at(int c) const { return points.col(c).cast<double>(); }

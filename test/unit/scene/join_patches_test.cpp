@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is one thing, although something parts it, and what is two, although one carries
+// the other or looks like it.
+#include "seen_scene.h"
+
+using namespace pcl_sq;
+using namespace pcl_sq::test;
+
+TEST(JoinPatches, WhatAnotherThingHidesTheMiddleOfIsOneThing) {
+  TableScene truth = fineScene();
+  truth.stand({0.0, 0.07}, {0.09, 0.02, 0.03}, 0.1, 0.1)
+      .stand({0.0, -0.02}, {0.03, 0.02, 0.06}, 0.1, 0.1);
+  const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true));
+  ASSERT_EQ(scene.objects.size(), 2u) << scene.failure;
+  double widest = 0.0;
+  for (const SceneObject& object : scene.objects)
+    widest = std::max(widest, object.model.boundingBox().sizes().x());
+  EXPECT_NEAR(widest, 0.18, 0.02);
+}
+
+TEST(JoinPatches, ThingsOfOneColorWithTheTableBetweenThemAreTwo) {
+  TableScene truth = fineScene();
+  truth.can({-0.05, 0.02}).can({0.05, 0.02});
+  auto cloud = cloudOf(truth, truth.inCamera(), true);
+  const LabelImage labels = truthOf(truth);
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    if (labels.values[i] > 0) {
+      (*cloud)[i].r = 200;
+      (*cloud)[i].g = 60;
+      (*cloud)[i].b = 50;
+    }
+  EXPECT_EQ(estimate(cloud).objects.size(), 2u);
+}
+
+TEST(JoinPatches, WhatStandsOnALedgeIsAThingOfItsOwn) {
+  TableScene truth = fineScene();
+  truth.stand({0.0, 0.0}, {0.07, 0.06, 0.03}, 0.1, 0.1).can({0.0, 0.0});
+  truth.things[1].semi_axes = {0.025, 0.025, 0.035};
+  truth.things[1].center.z() = 0.06 + 0.035;
+  const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true));
+  EXPECT_EQ(scene.objects.size(), 2u) << scene.failure;
+}
