@@ -7,6 +7,21 @@
 
 namespace pcl_sq {
 
+namespace detail {
+
+/** \brief What points near a body tell for it, as a number of points: the logarithm of
+ * their likelihood when they lie evenly on its surface within the threshold, over that
+ * when they lie anywhere in a box, relative to that of the smallest body. A large body
+ * through parts of two things has more points near to it than either thing, but most of
+ * its surface has none.
+ * \param[in] count points within the threshold \param[in] threshold [m]
+ * \param[in] volume of the box of all points [m^3]
+ * \return from 0 to \a count */
+PCL_SQ_EXPORTS std::size_t
+supportOf(const Superquadric& body, std::size_t count, double threshold, double volume);
+
+} // namespace detail
+
 /** \brief pcl::SACSegmentation that finds superquadrics.
  *
  * Everything of the base class works as ever: input and indices, threshold, iterations,
@@ -18,7 +33,9 @@ namespace pcl_sq {
  *     places of that size, so that a scene of several things is taken apart by
  * repeating segment() and taking the inliers out. setSamplesMaxDist(radius, nullptr)
  * chooses that size itself, see SampleConsensusModelSuperquadric;
- *   - setAxis() and setEpsAngle() bound the direction of the axis of epsilon1.
+ *   - setAxis() and setEpsAngle() bound the direction of the axis of epsilon1;
+ *   - with RANSAC models compete by the likelihood of their points, not by their number
+ *     alone: of things side by side, each is found and not a body through two of them.
  *
  * The coefficients are those of Superquadric::toCoefficients().
  * \code
@@ -54,7 +71,7 @@ public:
   void setFitOptions(const FitOptions& options) { fit_options_ = options; }
   const FitOptions& getFitOptions() const { return fit_options_; }
 
-  /** \brief Finds the superquadric with the most points near to it.
+  /** \brief Finds the superquadric that the points near to it tell most for.
    * \param[out] inliers its points, in the input cloud; empty, with a PCL_ERROR, if
    * there is none \param[out] model_coefficients eleven, or none */
   void segment(pcl::PointIndices& inliers,

@@ -8,6 +8,43 @@
 
 namespace pcl_sq {
 
+namespace detail {
+
+/** \brief Counts points by what they tell for a model, see supportOf(). */
+template <typename PointT>
+class LikelihoodModel : public SampleConsensusModelSuperquadric<PointT> {
+public:
+  using Base = SampleConsensusModelSuperquadric<PointT>;
+  LikelihoodModel(const typename Base::PointCloudConstPtr& cloud,
+                  const pcl::Indices& indices,
+                  unsigned int sample_size,
+                  bool random)
+      : Base(cloud, indices, sample_size, random) {
+    for (const pcl::index_t i : indices) {
+      const Eigen::Vector3f p = (*cloud)[static_cast<std::size_t>(i)].getVector3fMap();
+      if (p.allFinite())
+        box_.extend(p);
+    }
+  }
+  std::size_t countWithinDistance(const Eigen::VectorXf& model_coefficients,
+                                  double threshold) const override {
+    const std::size_t count = Base::countWithinDistance(model_coefficients, threshold);
+    if (count == 0 || count == indices_->size())
+      return count;
+    const auto margin = static_cast<float>(2.0 * threshold);
+    return supportOf(Superquadric::fromCoefficients(model_coefficients),
+                     count,
+                     threshold,
+                     double((box_.sizes().array() + margin).prod()));
+  }
+
+private:
+  using Base::indices_;
+  Eigen::AlignedBox3f box_;
+};
+
+} // namespace detail
+
 template <typename PointT>
 SuperquadricSegmentation<PointT>::SuperquadricSegmentation(bool random)
     : pcl::SACSegmentation<PointT>(random) {
@@ -35,7 +72,8 @@ void SuperquadricSegmentation<PointT>::segment(
 
 template <typename PointT>
 bool SuperquadricSegmentation<PointT>::initSACModel(const int /*model_type*/) {
-  const auto model = pcl::make_shared<Model>(input_, *indices_, sample_size_, random_);
+  const auto model = pcl::make_shared<detail::LikelihoodModel<PointT>>(
+      input_, *indices_, sample_size_, random_);
   model->setFitOptions(fit_options_);
   model->setRadiusLimits(radius_min_, radius_max_);
   model->setAxis(axis_);
