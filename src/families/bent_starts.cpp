@@ -2,6 +2,7 @@
 // Where the search for a bent rod begins.
 #include "families/bent_problem.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -23,70 +24,131 @@ std::pair<double, double> endsOf(std::vector<double> values) {
   return {values[cut], values[values.size() - 1 - cut]};
 }
 
+/** \brief Points seen along a normal, and how thick they are along it. */
+struct Seen {
+  Seen(const UnitPoints& points, const Eigen::Vector3d& along) : normal(along) {
+    plane.col(0) = normal.unitOrthogonal();
+    plane.col(1) = normal.cross(plane.col(0));
+    at.resize(2, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d p = points[i].cast<double>();
+      at.col(Eigen::Index(i)) = plane.transpose() * p;
+      heights.push_back(normal.dot(p));
+    }
+  }
+  /** \brief Where the middle of a rod is along the normal: of one that is seen along
+   * it only the near half has points. */
+  double middle(const ViewProblem& problem, double half) const {
+    const auto [low, high] = endsOf(heights);
+    if (problem.hasView() && high - low < ONE_SIDED * half)
+      return problem.view().dot(normal) < 0.0 ? high - half : low + half;
+    return 0.5 * (low + high);
+  }
+
+  Eigen::Vector3d normal;
+  Eigen::Matrix<double, 3, 2> plane;
+  Eigen::Matrix2Xd at;
+  std::vector<double> heights;
+};
+
+/** \brief A rod from the middle of its arc.
+ * \param[in] inwards to the circle's centre, in the plane */
+Superquadric rodAt(const ViewProblem& problem,
+                   const Seen& seen,
+                   const Eigen::Vector2d& middle,
+                   const Eigen::Vector2d& inwards,
+                   double half,
+                   double half_length,
+                   double bend) {
+  Superquadric s;
+  s.rotation.col(0) = seen.plane * inwards;
+  s.rotation.col(1) = seen.normal;
+  s.rotation.col(2) = s.rotation.col(0).cross(seen.normal);
+  s.center = seen.plane * middle + seen.middle(problem, half) * seen.normal;
+  s.bend = std::min(bend, MOST_BENT * Superquadric::MAX_FOLD / half);
+  s.semi_axes = {
+      half, half, std::min(half_length, MOST_BENT * Superquadric::MAX_BEND / s.bend)};
+  s.semi_axes.z() = std::max(s.semi_axes.z(), half);
+  s.epsilon1 = START_EPSILON;
+  return s;
+}
+
+/** \brief The arc of the parabola nearest to the points seen along a normal, which
+ * their thickness does not bend more than they are, as it does the circle: for less
+ * than about a third of one. */
+Superquadric parabolaAcross(const ViewProblem& problem, const Seen& seen) {
+  const Eigen::Vector2d mean = seen.at.rowwise().mean();
+  const Eigen::Matrix2Xd apart = seen.at.colwise() - mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(apart * apart.transpose());
+  const Eigen::Vector2d along = axes.eigenvectors().col(1),
+                        across(-along.y(), along.x());
+  const Eigen::VectorXd x = apart.transpose() * along, y = apart.transpose() * across;
+  Eigen::MatrixX3d rows(x.size(), 3);
+  rows << Eigen::VectorXd::Ones(x.size()), x, x.cwiseAbs2();
+  const Eigen::Vector3d c = rows.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd off = y - rows * c;
+  const auto [inner, outer] = endsOf({off.begin(), off.end()});
+  const auto [first, last] = endsOf({x.begin(), x.end()});
+  const double place = 0.5 * (first + last), slope = c[1] + 2.0 * c[2] * place;
+  const double stretch = std::sqrt(1.0 + slope * slope);
+  const double half = std::max(0.5 * (outer - inner) / stretch, 1e-3);
+  const Eigen::Vector2d inwards =
+      std::copysign(1.0, c[2]) * (across - slope * along) / stretch;
+  return rodAt(problem,
+               seen,
+               mean + place * along + (c[0] + (c[1] + c[2] * place) * place) * across,
+               inwards,
+               half,
+               0.5 * (last - first) * stretch,
+               std::max(2.0 * std::abs(c[2]) / std::pow(stretch, 3), 1e-3));
+}
+
 /** \brief The arc of the circle nearest to the points seen along a normal (Kasa 1976:
  * |p|^2 = 2 c.p + r^2 - |c|^2 is linear). */
-Superquadric arcAcross(const ViewProblem& problem, const Eigen::Vector3d& normal) {
-  const UnitPoints& points = problem.medium();
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::Matrix<double, 3, 2> plane;
-  plane.col(0) = normal.unitOrthogonal();
-  plane.col(1) = normal.cross(plane.col(0));
-  Eigen::Matrix2Xd at(2, count);
-  Eigen::MatrixX3d rows(count, 3);
-  std::vector<double> heights;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Vector3d p = points[std::size_t(i)].cast<double>();
-    at.col(i) = plane.transpose() * p;
-    rows.row(i) << 2.0 * at.col(i).transpose(), 1.0;
-    heights.push_back(normal.dot(p));
-  }
+Superquadric arcAcross(const ViewProblem& problem, const Seen& seen) {
+  Eigen::MatrixX3d rows(seen.at.cols(), 3);
+  rows << 2.0 * seen.at.transpose(), Eigen::VectorXd::Ones(seen.at.cols());
   const Eigen::Vector3d solution =
-      rows.colPivHouseholderQr().solve(at.colwise().squaredNorm().transpose());
+      rows.colPivHouseholderQr().solve(seen.at.colwise().squaredNorm().transpose());
   const Eigen::Vector2d center = solution.head<2>();
   const double radius = std::sqrt(std::max(solution[2] + center.squaredNorm(), 1e-12));
-  const Eigen::Vector2d outwards = at.rowwise().mean() - center;
+  const Eigen::Vector2d outwards = seen.at.rowwise().mean() - center;
   const double middle_angle = std::atan2(outwards.y(), outwards.x());
   std::vector<double> angles, radii;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Vector2d p = at.col(i) - center;
+  for (Eigen::Index i = 0; i < seen.at.cols(); ++i) {
+    const Eigen::Vector2d p = seen.at.col(i) - center;
     angles.push_back(std::remainder(std::atan2(p.y(), p.x()) - middle_angle, 2 * M_PI));
     radii.push_back(p.norm());
   }
   const auto [first, last] = endsOf(std::move(angles));
   const auto [inner, outer] = endsOf(std::move(radii));
-  const auto [low, high] = endsOf(std::move(heights));
   const double angle = middle_angle + 0.5 * (first + last);
   const Eigen::Vector2d away(std::cos(angle), std::sin(angle));
-  const double half = std::max(0.5 * (outer - inner), 1e-3);
   const double circle = 0.5 * (outer + inner);
-  // of a rod seen along the normal only the near half has points
-  double height = 0.5 * (low + high);
-  if (problem.hasView() && high - low < ONE_SIDED * half)
-    height = problem.view().dot(normal) < 0.0 ? high - half : low + half;
-  Superquadric s;
-  s.rotation.col(0) = -(plane * away);
-  s.rotation.col(1) = normal;
-  s.rotation.col(2) = s.rotation.col(0).cross(normal);
-  s.center = plane * (center + circle * away) + height * normal;
-  s.bend = 1.0 / std::max(circle, half / (MOST_BENT * Superquadric::MAX_FOLD));
-  s.semi_axes = {half,
-                 half,
-                 std::min(0.5 * (last - first) * radius,
-                          MOST_BENT * Superquadric::MAX_BEND / s.bend)};
-  s.semi_axes.z() = std::max(s.semi_axes.z(), half);
-  s.epsilon1 = START_EPSILON;
-  return s;
+  return rodAt(problem,
+               seen,
+               center + circle * away,
+               -away,
+               std::max(0.5 * (outer - inner), 1e-3),
+               0.5 * (last - first) * radius,
+               1.0 / circle);
 }
 
 } // namespace
 
 std::vector<Superquadric> bentStarts(const ViewProblem& problem) {
   // the frame's axes are the points' principal ones, the first the shortest
-  std::vector<Superquadric> starts = {arcAcross(problem, Eigen::Vector3d::UnitX())};
+  std::vector<Eigen::Vector3d> normals = {Eigen::Vector3d::UnitX()};
   if (problem.hasUp())
-    starts.push_back(arcAcross(problem, problem.up()));
+    normals.push_back(problem.up());
   if (problem.hasView())
-    starts.push_back(arcAcross(problem, problem.view()));
+    normals.push_back(problem.view());
+  std::vector<Superquadric> starts;
+  for (const Eigen::Vector3d& normal : normals) {
+    const Seen seen(problem.medium(), normal);
+    starts.push_back(arcAcross(problem, seen));
+    starts.push_back(parabolaAcross(problem, seen));
+  }
   return starts;
 }
 

@@ -118,8 +118,10 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
                                       double sigma,
                                       const std::vector<ShapeCandidate>& candidates) {
   const ShapeCandidate* best = nullptr;
+  // a vessel without a camera has the likelihood of a noise of its own
   for (const ShapeCandidate& c : candidates)
-    if (!best || c.cost < best->cost)
+    if ((problem.eye() || c.shape != ShapeClass::VESSEL) &&
+        (!best || c.cost < best->cost))
       best = &c;
   if (!best || !(best->cost > MISFIT * problem.observations()))
     return std::nullopt;

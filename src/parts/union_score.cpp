@@ -173,6 +173,16 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
          parameters * std::log(1.0 + o.effective_points) + demand;
 }
 
+double mostGain(const PieceContext& context, const Part& part) {
+  if (!part.trace)
+    return 1e300;
+  const ObservedObject& o = context.observed;
+  const double off = costOf(context, {&part}) / double(o.points.cols()) - 1.0;
+  const double bare =
+      -2.0 * std::log(std::max(covered(context, part.trace->model), 1e-6));
+  return (std::max(off, 0.0) + bare) * o.effective_points;
+}
+
 double covered(const PieceContext& context, const Superquadric& body) {
   std::vector<Eigen::Vector3d> points;
   for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)

@@ -34,6 +34,11 @@ void traceAgain(const PieceContext& context, Part& part);
 [[nodiscard]] double scoreOf(const PieceContext& context,
                              const std::vector<const Part*>& parts);
 
+/** \brief More than cuts of a part can take from the score, their own price left out:
+ * all that its points lie off it beyond the noise, and all of its surface that has no
+ * points. */
+[[nodiscard]] double mostGain(const PieceContext& context, const Part& part);
+
 /** \brief Share of a body's surface that has points of the cloud beside it. */
 [[nodiscard]] double covered(const PieceContext& context, const Superquadric& body);
 

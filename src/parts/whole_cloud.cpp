@@ -22,6 +22,7 @@ constexpr double QUICK_SLACK = 60.0;
 /** \brief Steps that are taken although they do not pay: one cut of a handle with two
  * corners, or of a table with legs at its corners, helps little. */
 constexpr int PATIENCE = 2;
+constexpr double FEWEST_PARAMETERS = 6.0; ///< that another part brings along
 constexpr double OFF = 4.0; ///< noise that a point lies off a body it is not of
 
 /** \brief Parts that may take another's place, quickly fitted. */
@@ -49,7 +50,7 @@ public:
       : context_(context), graph_(context.observed.points), wanted_(wanted),
         exactly_(exactly), min_gain_(min_gain), threads_(context.options.fit.threads) {}
 
-  std::vector<Piece> run(Piece whole);
+  std::vector<Piece> run(Part whole);
 
 private:
   double score(const std::vector<Member>& members) const {
@@ -272,11 +273,10 @@ bool WholeSearch::mergeOnce(Description& d) const {
   return true;
 }
 
-std::vector<Piece> WholeSearch::run(Piece whole) {
+std::vector<Piece> WholeSearch::run(Part whole) {
   Description now;
   now.members.emplace_back();
-  now.members[0].part.piece = std::move(whole);
-  traceAgain(context_, now.members[0].part);
+  now.members[0].part = std::move(whole);
   now.score = score(now.members);
   Description best = now;
   const auto worth = [&](const Description& d) { // with the price of its parts
@@ -309,7 +309,14 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    int wanted,
                                    bool exactly,
                                    double min_gain) {
-  return WholeSearch(context, wanted, exactly, min_gain).run(std::move(whole));
+  Part one;
+  one.piece = std::move(whole);
+  traceAgain(context, one);
+  const double price =
+      min_gain + FEWEST_PARAMETERS * std::log(1.0 + context.observed.effective_points);
+  if (!exactly && mostGain(context, one) < price)
+    return {std::move(one.piece)};
+  return WholeSearch(context, wanted, exactly, min_gain).run(std::move(one));
 }
 
 } // namespace pcl_sq::detail

@@ -70,15 +70,21 @@ TEST_F(SequenceApp, WritesALinePerFrameInTheOrderOfTheirNumbers) {
 TEST_F(SequenceApp, GivesAFrameThatFailsALineWithItsError) {
   copy("mask", "left_11.png");
   copy("mask", "right_11.png");
+  const ProgramRun larger = runProgram(
+      "pcl_sq_render", {"can", "--out", folder_ / "larger", "-q"}); // 1024 x 768
+  ASSERT_EQ(larger.code, 0) << larger.err;
+  copy("../larger/left", "left_13.png");
+  copy("../larger/right", "right_13.png");
   copy("left", "left_12.png");
   copy("right", "right_12.png");
   const ProgramRun run = sequence({"-o", folder_ / "models.jsonl"});
   EXPECT_EQ(run.code, 1);
-  EXPECT_EQ(run.sentences(), 1) << run.err;
+  EXPECT_EQ(run.sentences(), 2) << run.err;
   const auto lines = linesOf(slurp(folder_ / "models.jsonl"));
-  ASSERT_EQ(lines.size(), 4U);
+  ASSERT_EQ(lines.size(), 5U);
   EXPECT_TRUE(lines[2].contains("error"));
   EXPECT_FALSE(lines[3].contains("error"));
+  EXPECT_NE(lines[4]["error"].get<std::string>().find("1024 x 768"), std::string::npos);
 }
 
 TEST_F(SequenceApp, RefusesWhatNamesNoFrames) {

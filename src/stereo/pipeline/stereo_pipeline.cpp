@@ -114,6 +114,8 @@ StereoView StereoPipeline::look(StereoResult&& scene) {
 bool StereoPipeline::followPair(const cv::Mat& left,
                                 const cv::Mat& right,
                                 StereoView& view) {
+  if (left.size() != last_->mask.size())
+    return false;
   try {
     view.stereo = reprojector_.compute(
         left, right, {around(last_->mask), last_->min_depth, last_->max_depth});

@@ -3,6 +3,7 @@
 
 #include "observe/sheets.h"
 #include "parts/exposed_area.h"
+#include "parts/union_score.h"
 #include "util/cloud_graph.h"
 
 #include <gtest/gtest.h>
@@ -159,6 +160,37 @@ TEST(WholeCloud, NoPartLeavesTheBoxOfThePoints) {
     EXPECT_LT((part.boundingBox().max() - high).maxCoeff(), slack);
     EXPECT_LT((low - part.boundingBox().min()).maxCoeff(), slack);
   }
+}
+
+TEST(WholeCloud, CutsOfABodyGainWhatItLeavesUnexplainedAndNoMore) {
+  const Superquadric body = boxAt({0.05, 0.04, 0.08}, {0.3, 0.0, 0.2});
+  MultiSuperquadric one;
+  one.parts = {body};
+  Eigen::Matrix3Xd points = outsideOf(one, 3e4);
+  Random random(9);
+  constexpr double NOISE = 5e-4;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) +=
+        NOISE * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  const ObservedObject observed = observe(points, Coverage::COMPLETE);
+  const ObjectFitOptions options;
+  const detail::PieceContext context{observed, options, NOISE, {}, {}};
+  const auto gainOf = [&](const Superquadric& model) {
+    detail::Part part;
+    part.piece.fit.fit.model = model;
+    part.piece.fit.fit.termination = Termination::STEP_TOO_SMALL;
+    detail::traceAgain(context, part);
+    return detail::mostGain(context, part);
+  };
+  const double right = gainOf(body), n = observed.effective_points;
+  EXPECT_LT(right, 0.1 * n);
+  Superquadric longer = body; // a fifth of its surface has no points
+  longer.semi_axes.z() *= 1.3;
+  longer.center.z() += 0.3 * body.semi_axes.z();
+  EXPECT_GT(gainOf(longer), 2.0 * std::log(1.2) * n);
+  Superquadric thinner = body;
+  thinner.semi_axes.x() -= 3.0 * NOISE;
+  EXPECT_GT(gainOf(thinner), right + 0.2 * n);
 }
 
 TEST(Coverage, APanFromAllRoundIsNoViewUnlessTheUserSaysSo) {
