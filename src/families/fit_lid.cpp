@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cans and tins: a solid of revolution whose lid lies somewhat below its rim. The rim
-// makes the outline, the lid has the points.
+// M29, cans and tins: a solid of revolution whose lid lies somewhat below its rim. The
+// rim makes the outline, the lid has the points.
 #include "families/families.h"
 #include "view_problem/shape_spaces.h"
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pcl_sq::detail {
 
@@ -53,10 +54,9 @@ public:
 
 private:
   bool alive(int k) const { return !list_[std::size_t(k)].pixels.empty(); }
-  double reach(const Patch& p) const {
-    return STANDS * standingHeight(view_.table, p.sums.mean().z());
+  bool stands(const Patch& p) const {
+    return p.low < STANDS * standingHeight(view_.table, p.sums.mean().z());
   }
-  bool stands(const Patch& p) const { return p.low < reach(p); }
 
   void join(int from, int into) {
     Patch& a = list_[std::size_t(into)];
@@ -120,13 +120,10 @@ private:
     std::vector<std::pair<int, int>> pairs;
     for (int a = 0; a < int(list_.size()); ++a)
       for (int b = a + 1; b < int(list_.size()); ++b) {
-        if (!alive(a) || !alive(b))
+        if (std::min(list_[std::size_t(a)].pixels.size(),
+                     list_[std::size_t(b)].pixels.size()) < SCRAP)
           continue;
         const auto border = borders_.find({a, b});
-        const std::size_t smaller = std::min(list_[std::size_t(a)].pixels.size(),
-                                             list_[std::size_t(b)].pixels.size());
-        if (smaller < SCRAP)
-          continue;
         const bool contact = border != borders_.end() && touches(border->second);
         if (contact || offset(a, b) < OVERLAP ||
             (sameColor(a, b) && offset(a, b) < 1.0))
@@ -147,22 +144,36 @@ private:
     return (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
   }
 
-  /** \brief Pieces of one colour where two bodies would overlap, such as the inside and
-   * the outside of a bowl. */
-  void joinOverlapping() {
-    for (bool joined = true; joined;) {
+  /** \brief Joins pieces of one colour, the larger one given first, while any two are
+   * one thing. */
+  void joinAlike(const std::function<bool(int, int)>& areOne) {
+    for (bool joined = view_.colors.cols() > 0; joined;) {
       joined = false;
       for (int a = 0; a < int(list_.size()) && !joined; ++a)
         for (int b = 0; b < int(list_.size()) && !joined; ++b)
           if (a != b && alive(a) && alive(b) &&
               list_[std::size_t(a)].pixels.size() >=
                   list_[std::size_t(b)].pixels.size() &&
-              view_.colors.cols() > 0 && sameColor(a, b, ONE_COLOR) &&
-              offset(a, b) < OVERLAP) {
+              sameColor(a, b, ONE_COLOR) && areOne(a, b)) {
             join(b, a);
             joined = true;
           }
     }
+  }
+
+  /** \brief Pieces where two bodies would overlap, such as the inside and the outside
+   * of a bowl. */
+  void joinOverlapping() {
+    joinAlike([&](int a, int b) { return offset(a, b) < OVERLAP; });
+  }
+
+  /** \brief Pieces between which nothing is seen but what hides their middle, or
+   * nothing at all and they are too near to be two. */
+  void joinInterrupted() {
+    joinAlike([&](int a, int b) {
+      const Between gap = between(view_, list_[std::size_t(a)], list_[std::size_t(b)]);
+      return !gap.background && (gap.hidden || offset(a, b) <= BESIDE);
+    });
   }
 
   void joinBodies() {
@@ -190,27 +201,6 @@ private:
       if (which.first < 0)
         return;
       join(which.second, which.first);
-    }
-  }
-
-  /** \brief Pieces of one colour between which nothing is seen but what hides their
-   * middle, or nothing at all and they are too near to be two. */
-  void joinInterrupted() {
-    for (bool joined = view_.colors.cols() > 0; joined;) {
-      joined = false;
-      for (int a = 0; a < int(list_.size()) && !joined; ++a)
-        for (int b = 0; b < int(list_.size()) && !joined; ++b) {
-          const Patch &larger = list_[std::size_t(a)], &smaller = list_[std::size_t(b)];
-          if (a == b || !alive(a) || !alive(b) ||
-              larger.pixels.size() < smaller.pixels.size() ||
-              !sameColor(a, b, ONE_COLOR))
-            continue;
-          const Between gap = between(view_, larger, smaller);
-          if (gap.background || (!gap.hidden && offset(a, b) > BESIDE))
-            continue;
-          join(b, a);
-          joined = true;
-        }
     }
   }
 
@@ -281,7 +271,7 @@ private:
     return false;
   }
 
-  /** \brief How far a floating patch is from another, in sizes; infinite beyond reach.
+  /** \brief How far a floating patch is from another, in sizes; infinite out of reach.
    */
   double apart(int a, int b) const {
     const auto border = borders_.find(std::minmax(a, b));
@@ -289,9 +279,7 @@ private:
         colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums);
     if (border != borders_.end() && touches(border->second))
       return 0.1 * color / double(border->second.pairs);
-    const Footprint fa = footprintOf(view_.table, list_[std::size_t(a)]);
-    const Footprint fb = footprintOf(view_.table, list_[std::size_t(b)]);
-    const double gap = (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
+    const double gap = offset(a, b);
     if (color > SAME_COLOR || gap > 1.0 + NEAR)
       return 1e300;
     return 1.0 + gap + color;
