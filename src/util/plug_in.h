@@ -20,7 +20,7 @@ inline Function* functionOf(const char* file, const char* symbol, std::string* w
   void* library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   void* function = library == nullptr ? nullptr : dlsym(library, symbol);
   if (function == nullptr) {
-    const char* reason = dlerror();
+    const char* reason = dlerror(); // NOLINT(concurrency-mt-unsafe): a thread's own
     *why = "the plug-in " + std::string(file) + " of pcl_sq cannot be loaded (" +
            (reason == nullptr ? "unknown reason" : reason) + "); install pcl_sq again";
   }

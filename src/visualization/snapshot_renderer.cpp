@@ -192,7 +192,7 @@ std::vector<std::string> SnapshotRenderer::saveTurntable(
     throw Exception("[" + SAVE + "] '" + path +
                     "' does not end in .png; the pictures are numbered in front of "
                     "that ending.");
-  const std::vector<std::string> names = numberedNames(path, count);
+  std::vector<std::string> names = numberedNames(path, count);
   for (const std::string& name : names)
     checkPngPath(name, SAVE);
   const Eigen::Matrix3Xd focus = checkedFocus(*scene_);
