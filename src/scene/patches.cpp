@@ -65,7 +65,8 @@ void measure(const SceneView& view, Patch& patch) {
 }
 
 Eigen::Vector2d pixelOf(int c, int width) {
-  return {double(c % width), double(c / width)};
+  const int row = c / width;
+  return {double(c % width), double(row)};
 }
 
 int nearestTo(const Patch& patch, const Eigen::Vector2d& place, int width) {

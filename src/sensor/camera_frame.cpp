@@ -77,8 +77,8 @@ Look lookFrom(const Eigen::Vector3d& place,
       radius += std::pow(2.0 * at - 1.0, 2);
     }
     const double range = (points.col(i) - place).norm();
-    pixels[static_cast<std::size_t>(cell[0] + cells * cell[1])].emplace_back(
-        image(0, i), image(1, i), range);
+    const int at = cell[0] + cells * cell[1];
+    pixels[static_cast<std::size_t>(at)].emplace_back(image(0, i), image(1, i), range);
     (radius < 0.4 ? inner : outer) += range;
     ++(radius < 0.4 ? inner_count : outer_count);
   }

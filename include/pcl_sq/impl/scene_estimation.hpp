@@ -15,12 +15,12 @@ using ColorMatrix = Eigen::Matrix<std::uint8_t, 3, Eigen::Dynamic>;
 
 /** \brief Whether points have a colour of their own. */
 template <typename PointT, typename = void>
-constexpr bool HAS_RGB = false;
+inline constexpr bool HAS_RGB = false;
 template <typename PointT>
-constexpr bool HAS_RGB<PointT,
-                       std::void_t<decltype(std::declval<PointT>().r),
-                                   decltype(std::declval<PointT>().g),
-                                   decltype(std::declval<PointT>().b)>> = true;
+inline constexpr bool HAS_RGB<PointT,
+                              std::void_t<decltype(std::declval<PointT>().r),
+                                          decltype(std::declval<PointT>().g),
+                                          decltype(std::declval<PointT>().b)>> = true;
 
 /** \brief The colours of a cloud; empty where its points have none. */
 template <typename PointT>

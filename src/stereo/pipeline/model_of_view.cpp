@@ -100,7 +100,7 @@ bool StereoPipeline::process(const cv::Mat& left,
     if (options.decomposition == Decomposition::PARTS)
       tellView(view, !options_.hint.mask.empty(), options.view);
     if (view.segment.mask.empty() || options.decomposition != Decomposition::PARTS) {
-      estimation.setIndices(pcl::IndicesPtr(new pcl::Indices(view.object)));
+      estimation.setIndices(pcl::make_shared<pcl::Indices>(view.object));
       estimation.setRegion(view.region);
     }
     estimation.setOptions(options);

@@ -67,7 +67,7 @@ void requireTexture(const StereoPipelineOptions& options, const StereoView& view
 void filterBorder(const StereoPipelineOptions& options, StereoView& view) {
   TextureBorderFilter filter;
   filter.setInputCloud(view.stereo.cloud);
-  filter.setIndices(pcl::IndicesPtr(new pcl::Indices(view.object)));
+  filter.setIndices(pcl::make_shared<pcl::Indices>(view.object));
   filter.setMask(view.segment.mask);
   filter.setBlockSize(
       options.stereo.blockSizeFor(static_cast<int>(view.stereo.cloud->width)));
