@@ -146,7 +146,8 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
   for (std::size_t k = 0; k < n; ++k)
     if (sheet.other == 0.0 || std::abs(height[k]) < 0.5 * std::abs(sheet.other))
       same.push_back(near[k]);
-  if (same.size() >= 2 * LocalQuadric::TERMS) {
+  constexpr std::size_t ENOUGH = 2 * LocalQuadric::TERMS;
+  if (same.size() >= ENOUGH) {
     const LocalQuadric patch = localQuadric(points, same);
     if (patch.residuals.size() > 0)
       sheet.scatter = patch.scatter();

@@ -55,8 +55,9 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
-  cells.middles.resize(3, 8 * OCTANT);
-  cells.areas.resize(8 * OCTANT);
+  constexpr Eigen::Index COUNT = 8 * OCTANT;
+  cells.middles.resize(3, COUNT);
+  cells.areas.resize(COUNT);
   // Gauss's nodes are dense at the cube's edges, where small exponents bend the surface
   using Rule = boost::math::quadrature::gauss<double, CELLS>;
   std::array<double, CELLS> node, weight;

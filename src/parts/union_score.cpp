@@ -44,8 +44,8 @@ struct BodyTrace {
 
   /** \brief Distances of the cells to another body, where those are near. */
   const Eigen::VectorXd& to(const BodyTrace& other) const {
-    const std::lock_guard<std::mutex> lock(mutex);
-    Eigen::VectorXd& beyond = met[other.number];
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Eigen::VectorXd& beyond = met_[other.number_];
     if (beyond.size() == 0) {
       beyond = half;
       keepNearer(other.model, cells.middles, half, beyond);
@@ -54,10 +54,10 @@ struct BodyTrace {
   }
 
 private:
-  static inline std::atomic<std::size_t> made{0};
-  const std::size_t number = made++; ///< tells bodies apart, also those that are gone
-  mutable std::mutex mutex;
-  mutable std::map<std::size_t, Eigen::VectorXd> met;
+  static inline std::atomic<std::size_t> made_{0};
+  const std::size_t number_ = made_++; ///< tells bodies apart, also those that are gone
+  mutable std::mutex mutex_;
+  mutable std::map<std::size_t, Eigen::VectorXd> met_;
 };
 
 namespace {
