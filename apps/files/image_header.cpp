@@ -155,6 +155,13 @@ bool readImageHeader(const std::string& bytes, ImageHeader& header, std::string*
   const Bytes b(bytes);
   bool whole = false;
   header = {};
+  // OpenCV takes it for DICOM whatever it begins with, and that decoder aborts on
+  // damage
+  if (bytes.compare(std::min<std::size_t>(bytes.size(), 128), 4, "DICM") == 0) {
+    if (why)
+      *why = "is a DICOM image, which is not read";
+    return false;
+  }
   if (b.startsWith("\x89PNG\r\n\x1a\n", 8))
     whole = readPng(b, header);
   else if (b.startsWith("\xff\xd8\xff", 3))

@@ -82,6 +82,14 @@ TEST(ImageFile, WhatIsNoImageOrCutOffOrHugeIsRefusedInOneSentence) {
             std::string::npos);
 }
 
+TEST(ImageFile, WhatOpenCvWouldTakeForDicomIsRefused) {
+  // its decoder ends the program at the damaged element that follows
+  std::string bytes = "Pf\n6 6\n-1\n";
+  bytes.resize(128, '\0');
+  bytes += std::string("DICM3   OB\xff\0\n", 13);
+  EXPECT_NE(refusal(bytes).find("DICOM"), std::string::npos) << refusal(bytes);
+}
+
 TEST(ImageFile, ChangedFilesAreRefusedOrDecodedAndNobodyElseSpeaks) {
   testing::internal::CaptureStderr();
   for (const char* ending : {".png", ".jpg", ".bmp", ".ppm", ".tiff"})
