@@ -45,6 +45,30 @@ def test_sdf_is_well_formed_xml(model, tmp_path):
         assert (tmp_path / uri.text.replace("model://thing/", "")).exists()
 
 
+def test_libsdformat_reads_what_the_model_holds(model, tmp_path):
+    reader = os.environ.get("PCL_SQ_READ_SDF")
+    if not reader:
+        pytest.skip("libsdformat-dev is not installed")
+    model.export(tmp_path / "thing.sdf", density=1000)
+    done = subprocess.run([reader, tmp_path / "thing.sdf"], capture_output=True, text=True)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0] == "model thing links 1"
+    words = lines[2].split()
+    assert float(words[1]) == pytest.approx(1000 * model.union.volume, rel=1e-4)
+    assert words[3] == "1"  # inertia as of a body that can be
+    assert int(words[7]) == len(lines) - 3 and "unknown" not in lines
+    for line in lines[3:]:
+        if line.startswith("mesh "):
+            assert (tmp_path / line[5:]).exists()
+    assert "cylinder" in lines  # the bottle's body
+    # a file that is none is refused, so that the test tells
+    (tmp_path / "bad.sdf").write_text((tmp_path / "thing.sdf").read_text().replace(
+        "<mass>", "<mess>").replace("</mass>", "</mess>").replace("<link", "<lonk").replace(
+            "</link", "</lonk"))
+    assert subprocess.run([reader, tmp_path / "bad.sdf"], capture_output=True).returncode
+
+
 @pytest.mark.parametrize("ending", ["glb", "stl"])
 def test_assimp_reads_what_is_written(model, tmp_path, ending):
     model.export(tmp_path / "thing.glb")
