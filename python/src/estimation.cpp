@@ -150,7 +150,9 @@ void addEstimation(py::module_& module) {
       .def_readonly("rms_distance", &ModelFile::rms_distance)
       .def_readonly("distortion", &ModelFile::distortion)
       .def_readwrite("extra_json", &ModelFile::extra_json)
-      .def("to_json", &toJson, py::arg("indent") = 2)
+      .def("to_json",
+           py::overload_cast<const ModelFile&, int>(&toJson),
+           py::arg("indent") = 2)
       .def_static("of_union",
                   [](const MultiSuperquadric& model) {
                     ModelFile file;

@@ -23,7 +23,8 @@ LabelImage labelsOf(const py::array& labels);
 
 /** \brief A cloud as htmlView() takes it. */
 struct PageCloud {
-  Eigen::Matrix3Xf points; ///< of single precision, which keeps its digits near the model
+  Eigen::Matrix3Xf
+      points; ///< of single precision, which keeps its digits near the model
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> colors;
 

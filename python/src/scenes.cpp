@@ -76,9 +76,8 @@ std::string sceneHtml(const SceneFile& file,
   return htmlView(file, seen.points, seen.offset, seen.colors, options);
 }
 
-std::vector<std::pair<std::string, py::bytes>> sceneExport(const SceneFile& file,
-                                                           const std::string& ending,
-                                                           const std::string& name) {
+std::vector<std::pair<std::string, py::bytes>>
+sceneExport(const SceneFile& file, const std::string& ending, const std::string& name) {
   RobotExportOptions options;
   options.name = name;
   std::string why;

@@ -18,9 +18,9 @@ int main(int argc, char** argv) {
   for (std::uint64_t i = 0; i < model->LinkCount(); ++i) {
     const sdf::Link& link = *model->LinkByIndex(i);
     const auto& inertia = link.Inertial().MassMatrix();
-    std::cout << "mass " << inertia.Mass() << " valid " << link.Inertial().MassMatrix().IsValid()
-              << " visuals " << link.VisualCount() << " collisions "
-              << link.CollisionCount() << '\n';
+    std::cout << "mass " << inertia.Mass() << " valid "
+              << link.Inertial().MassMatrix().IsValid() << " visuals "
+              << link.VisualCount() << " collisions " << link.CollisionCount() << '\n';
     for (std::uint64_t k = 0; k < link.CollisionCount(); ++k) {
       const sdf::Geometry& geometry = *link.CollisionByIndex(k)->Geom();
       if (const sdf::Mesh* mesh = geometry.MeshShape())
