@@ -28,6 +28,7 @@ struct Arguments {
   ModelOptions model;
   SceneChoices choices;
   std::string labels, write_labels, panel;
+  ExportOptions exported;
 
   bool hasImages() const { return !front.right.empty() || !front.depth.empty(); }
 };
@@ -65,7 +66,7 @@ void configure(CLI::App& cli, Arguments& a) {
                  a.write_labels,
                  "Number of each pixel's thing as PNG, 0 where there is none")
       ->type_name("FILE");
-  addSceneExportOptions(cli, a.model.exported);
+  addSceneExportOptions(cli, a.exported);
 }
 
 /** \brief What can be wrong with the command line as a whole. */
@@ -82,7 +83,7 @@ void check(Arguments& a) {
   for (const std::string& calibration : a.front.calib)
     claimInput(calibration);
   checkModelOptions(a.model);
-  checkSceneExportOptions(a.model.exported);
+  checkSceneExportOptions(a.exported);
   claimImage("--panel", a.panel);
   claimOutput("--write-labels", a.write_labels, {".png"});
 }
@@ -138,7 +139,7 @@ int work(Arguments& a) {
     writeImage(a.panel, drawScene(input, result));
   if (!a.write_labels.empty())
     writeImage(a.write_labels, labelImage(result));
-  writeExports(a.model.exported, result.file, &input);
+  writeExports(a.exported, result.file, &input);
   if (!quiet())
     printScene(result);
   return DONE;

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import pcl_sq
+from conftest import schema, write_xyz
 
-SCHEMAS = os.path.join(os.environ["PCL_SQ_SOURCE_DIR"], "docs", "schemas")
 
 
 @pytest.fixture(scope="module")
@@ -102,14 +102,6 @@ def test_another_ending_is_refused(model, tmp_path):
         pcl_sq.Model.from_parts([]).export(tmp_path / "nothing.glb")
 
 
-def schema(name):
-    jsonschema = pytest.importorskip("jsonschema")
-    with open(os.path.join(SCHEMAS, name)) as file:
-        contents = json.load(file)
-    jsonschema.Draft7Validator.check_schema(contents)
-    return jsonschema.Draft7Validator(contents)
-
-
 def test_models_and_grasps_are_as_their_schemas_say(model, bottle, program, tmp_path):
     validator = schema("model.schema.json")
     validator.validate(json.loads(model.to_json()))
@@ -123,6 +115,19 @@ def test_models_and_grasps_are_as_their_schemas_say(model, bottle, program, tmp_
     estimated.save(tmp_path / "m.json")
     program("pcl_sq_grasp", tmp_path / "m.json", "-q", "-o", tmp_path / "g.json")
     schema("grasps.schema.json").validate(json.loads((tmp_path / "g.json").read_text()))
+
+
+def test_each_line_of_many_clouds_is_as_its_schema_says(bottle, program, tmp_path):
+    good = write_xyz(tmp_path / "good.xyz", bottle[1])
+    (tmp_path / "bad.xyz").write_text("no numbers\n")
+    done = program("pcl_sq_fit", good, tmp_path / "bad.xyz", "--jsonl", "-q", check=False)
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    assert ["error" in line for line in lines] == [False, True]
+    validator = schema("line.schema.json")
+    for line in lines:
+        validator.validate(line)
+    assert not validator.is_valid(dict(lines[0], error="both"))
+    assert not validator.is_valid({"error": "of what?"})
 
 
 def test_a_scene_of_moveit_names_object_and_table(tmp_path):
