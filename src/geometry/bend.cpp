@@ -233,10 +233,8 @@ bentContact(const Superquadric& s, const Eigen::Vector3d& n, double low, double 
   return contact;
 }
 
-int convexPieces(const Superquadric& s) {
-  constexpr double SAGITTA_ANGLE = 0.35; // rad to either side: a sagitta of 6 % of R
-  return std::max(1,
-                  int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / SAGITTA_ANGLE)));
+int convexPieces(const Superquadric& s, double half_angle) {
+  return std::max(1, int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / half_angle)));
 }
 
 BentMoments bentMoments(const Superquadric& s) {

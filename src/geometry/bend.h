@@ -52,8 +52,10 @@ BentContact bentContact(const Superquadric& s,
                         double low = -1.0,
                         double high = 1.0);
 
-/** \brief Into how many stretches a bent body is cut to be as good as convex. */
-int convexPieces(const Superquadric& s);
+/** \brief Into how many stretches a bent body is cut to be as good as convex.
+ * \param[in] half_angle largest part of the circle to either side of a stretch's middle
+ * [rad] */
+int convexPieces(const Superquadric& s, double half_angle = 0.35);
 
 /** \brief Integrals of 1, p and p p^T over a bent body in its own frame (Pappus). */
 struct BentMoments {
