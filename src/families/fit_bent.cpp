@@ -20,9 +20,10 @@ constexpr double WIDE = 0.03;       ///< sigma of the search, in the points' dev
 constexpr double SLENDER = 2.0;     ///< a rod's length over its width at least
 constexpr double SEEN_LENGTH = 0.6; ///< share of a rod's length that has points
 constexpr double STRAY = 0.02;      ///< share of the points beyond either end
-constexpr double SLIGHT = 0.1;  ///< rad to either side, of a bend that starts straight
-constexpr std::size_t KEPT = 2; ///< starts that are refined
-constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 25;
+constexpr double SLIGHT = 0.1; ///< rad to either side, of a bend that starts straight
+/** \brief Starts that are searched on after their first iterations, and refined. */
+constexpr std::size_t PROMISING = 4, KEPT = 2;
+constexpr int FIRST_ITERATIONS = 4, SEARCH_ITERATIONS = 8, ITERATIONS = 25;
 
 struct Rod {
   Superquadric model;
@@ -137,8 +138,12 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       Rod start{s};
       start.model.semi_axes.head<2>().setConstant(
           std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
-      found.push_back(fitRod(rough, start, SEARCH_ITERATIONS));
+      found.push_back(fitRod(rough, start, FIRST_ITERATIONS));
     }
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), PROMISING));
+  for (Rod& rod : found)
+    rod = fitRod(rough, rod, SEARCH_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   // of what is not bent, a bottle for instance, no arc is nearer to the points

@@ -100,9 +100,9 @@ gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_dist
   for (int i = 0; i < pieces; ++i) {
     const double low = -1.0 + 2.0 * i / pieces, high = -1.0 + 2.0 * (i + 1) / pieces;
     const double middle = 0.5 * (low + high) * s.semi_axes.z();
+    const detail::BentSupport slices(s, low, high);
     const auto farthest_of_piece = [&](const Eigen::Vector3d& n) {
-      return s.toWorld(
-          detail::bentContact(s, s.rotation.transpose() * n, low, high).at);
+      return s.toWorld(slices.contact(s.rotation.transpose() * n).at);
     };
     least = std::min(least,
                      gjk(box,
