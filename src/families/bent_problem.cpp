@@ -3,6 +3,7 @@
 
 #include "families/family_step.h"
 #include "geometry/bend.h"
+#include "tuning/view_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_EPSILON = 1.5; ///< the ends of a rod are not pinched
-constexpr double TRUST = 0.5;       ///< largest steps
-constexpr double SLIGHTEST = 1e-6;  ///< curvature; a bend of zero is none
+using namespace tuning::family;
+using namespace tuning::bent_problem;
 
 /** \brief Largest curvature of a body that does not fold or meet itself. */
 double mostBent(const Superquadric& s) {

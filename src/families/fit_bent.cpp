@@ -4,6 +4,7 @@
 #include "families/families.h"
 #include "families/family_step.h"
 #include "geometry/bend.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/shape_spaces.h"
 
 #include <algorithm>
@@ -13,17 +14,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Cost per observation from which on no family is near the body, as for a
- * taper: where one is, a bend is not looked for. */
-constexpr double MISFIT = 1.3;
-constexpr double WIDE = 0.03;       ///< sigma of the search, in the points' deviation
-constexpr double SLENDER = 2.0;     ///< a rod's length over its width at least
-constexpr double SEEN_LENGTH = 0.6; ///< share of a rod's length that has points
-constexpr double STRAY = 0.02;      ///< share of the points beyond either end
-constexpr double SLIGHT = 0.1; ///< rad to either side, of a bend that starts straight
-/** \brief Starts that are searched on after their first iterations, and refined. */
-constexpr std::size_t PROMISING = 4, KEPT = 2;
-constexpr int FIRST_ITERATIONS = 4, SEARCH_ITERATIONS = 8, ITERATIONS = 25;
+using namespace tuning::family;
+using namespace tuning::fit_bent;
+using namespace tuning::shared;
 
 struct Rod {
   Superquadric model;
@@ -81,7 +74,6 @@ std::vector<Superquadric> straightStarts(const Superquadric& body) {
 
 /** \brief Cost of the points alone, in units of sigma^2. */
 double pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {
-  constexpr double OUTLIER = 0.01; // as in the fits
   std::vector<float> distances(points.size() + kernels::BLOCK);
   residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
   const RobustCost density{sigma, OUTLIER};
@@ -143,7 +135,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), PROMISING));
   for (Rod& rod : found)
-    rod = fitRod(rough, rod, SEARCH_ITERATIONS);
+    rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   // of what is not bent, a bottle for instance, no arc is nearer to the points

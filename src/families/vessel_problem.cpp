@@ -2,6 +2,7 @@
 #include "families/vessel_problem.h"
 
 #include "families/family_step.h"
+#include "tuning/view_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,19 +11,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_EPSILON = 1.5; ///< a vessel's wall is not pinched
-constexpr double MIN_RIM = -0.9, MAX_RIM = 0.97;
-constexpr double MAX_TAPER = 0.9;
-constexpr double TRUST = 0.5, RIM_TRUST = 0.3; ///< largest steps
-/** \brief Of the wall, over the rim's radius and the depth: a body with a floor as
- * thick as it is high is a solid in disguise. */
-constexpr double MOST_WALL = 0.3;
-/** \brief Logarithm of the wall's thickness over the radius, and its deviation: pots,
- * bowls, mugs and glasses have 0.04 to 0.12. It decides where one side is seen. */
-constexpr double LOG_WALL = -2.7, LOG_WALL_SIGMA = 0.5;
-/** \brief Density of outlines that are not the vessel's, a handle's for instance, over
- * the Gaussian's peak, as for the points. */
-constexpr double OUTLIER = 0.01;
+using namespace tuning::family;
+using namespace tuning::vessel_problem;
+using namespace tuning::shared;
 
 /** \brief The nearest place of a polyline. */
 struct Foot {

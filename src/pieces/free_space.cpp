@@ -3,6 +3,7 @@
 
 #include "pcl_sq/line_intersection.h"
 #include "pieces/body_outline.h"
+#include "tuning/parts_tuning.h"
 #include "view_problem/plane_cost.h"
 
 #include <algorithm>
@@ -11,12 +12,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Largest cost of one contradiction: -2 ln of an outlier's density over the
- * Gaussian's peak, as for the points. */
-constexpr double MAX_COST = 9.2;
-/** \brief How far parts stick out where the object is hollow, over its size: what is no
- * superquadric cannot be followed closer. */
-constexpr double FREE_SIGMA = 0.03;
+using namespace tuning::shared;
+using namespace tuning::free_space;
 
 /** \brief A point of a ray well inside a body. \return false if the ray misses it */
 bool insideOnRay(const Superquadric& body,
