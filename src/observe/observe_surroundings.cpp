@@ -16,6 +16,7 @@ constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outl
 constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
 constexpr int BESIDE = 2;       ///< pixels between an outline and another thing's
 constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
+constexpr double OUTLINE_CORRELATION = 7.0; ///< pixels of an outline that err alike
 
 } // namespace
 
@@ -71,7 +72,10 @@ void findFreeSpace(Observation& o, const CellRect& box, int margin) {
   const double area =
       double(box.width - 1 + 2 * reach) * double(box.height - 1 + 2 * reach);
   const int step = std::max(1, int(std::sqrt(area / FREE_SPACE)));
-  o.out.free_weight = std::min(1.0, std::pow(step / o.view.correlation, 2));
+  // of a mask its outline tells what is free, whatever neighbours' depths share
+  const double correlation =
+      has_mask ? std::min(o.view.correlation, OUTLINE_CORRELATION) : o.view.correlation;
+  o.out.free_weight = std::min(1.0, std::pow(step / correlation, 2));
   const auto beside = [&](int x, int y) {
     for (int dy = -margin; dy <= margin; ++dy)
       for (int dx = -margin; dx <= margin; ++dx)
