@@ -2,6 +2,7 @@
 // What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
+#include "sensor/noise.h"
 #include "util/order_statistic.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@ constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outl
 constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
 constexpr int BESIDE = 2;       ///< pixels between an outline and another thing's
 constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
-constexpr double OUTLINE_CORRELATION = 7.0; ///< pixels of an outline that err alike
 
 } // namespace
 

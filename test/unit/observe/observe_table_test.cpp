@@ -41,8 +41,8 @@ std::optional<TableModel> tableOf(const ViewScene& scene) {
   view.mask = scene.mask;
   ObservedObject observed;
   std::string why;
-  EXPECT_TRUE(observeObject(
-      scene.points, scene.width, scene.height, {}, view, observed, &why))
+  EXPECT_TRUE(
+      observeObject(scene.points, scene.width, scene.height, {}, view, observed, &why))
       << why;
   return observed.table;
 }
