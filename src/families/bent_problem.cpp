@@ -55,15 +55,16 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
   }
   e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
   e.points_cost = e.cost;
+  const BentSupport slices(s);
   const auto row = [&](const Eigen::Vector3d& normal) {
     Eigen::Vector3d touching;
-    const BodyRow body = supportRow(s, normal, &touching);
+    const BodyRow body = supportRow(s, slices, normal, &touching);
     const Eigen::Vector3d n = s.rotation.transpose() * normal;
     return PlaneRow<N>{body.value,
                        rowOf(body.derivatives, n.dot(bendVelocity(s, touching)))};
   };
   const auto reach = [&](const Eigen::Vector3d& normal) {
-    return normal.dot(s.center) + s.support(normal);
+    return normal.dot(s.center) + slices.contact(s.rotation.transpose() * normal).reach;
   };
   addPlaneCost<N>(planes_, row, reach, e);
   return e;

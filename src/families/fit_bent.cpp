@@ -130,8 +130,12 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       Rod start{s};
       start.model.semi_axes.head<2>().setConstant(
           std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
-      found.push_back(fitRod(rough, start, SEARCH_ITERATIONS));
+      found.push_back(fitRod(rough, start, FIRST_ITERATIONS));
     }
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), PROMISING));
+  for (Rod& rod : found)
+    rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   // of what is not bent, a bottle for instance, no arc is nearer to the points

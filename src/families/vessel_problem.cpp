@@ -29,14 +29,13 @@ void takeNearest(const std::array<ProfileVertex, COUNT>& line,
                  Foot& foot) {
   double least = foot.distance * foot.distance;
   for (std::size_t i = 0; i + 1 < COUNT; ++i) {
-    const Eigen::Vector2d side = line[i + 1].at - line[i].at, to = p - line[i].at;
-    const double length = side.squaredNorm();
-    const double share =
-        length > 0.0 ? std::clamp(to.dot(side) / length, 0.0, 1.0) : 0.0;
-    const double square = (to - share * side).squaredNorm();
+    const ProfileVertex& v = line[i];
+    const Eigen::Vector2d to = p - v.at;
+    const double share = std::clamp(to.dot(v.side) * v.inverse_square, 0.0, 1.0);
+    const double square = (to - share * v.side).squaredNorm();
     if (square < least) {
       least = square;
-      foot.from = &line[i];
+      foot.from = &v;
       foot.share = share;
     }
   }
@@ -114,7 +113,7 @@ void VesselProblem::addPoints(const Superquadric& s,
     if (foot.distance > 1e-9)
       n /= foot.distance;
     else {
-      const Eigen::Vector2d side = foot.from[1].at - foot.from[0].at;
+      const Eigen::Vector2d& side = foot.from->side;
       n = Eigen::Vector2d(side.y(), -side.x()).normalized();
     }
     const Eigen::Vector3d normal(rho > 0.0 ? n.x() * p.x() / rho : n.x(),

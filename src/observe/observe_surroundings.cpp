@@ -2,6 +2,7 @@
 // What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
+#include "sensor/noise.h"
 #include "tuning/observe_tuning.h"
 #include "util/order_statistic.h"
 
@@ -69,7 +70,10 @@ void findFreeSpace(Observation& o, const CellRect& box, int margin) {
   const double area =
       double(box.width - 1 + 2 * reach) * double(box.height - 1 + 2 * reach);
   const int step = std::max(1, int(std::sqrt(area / FREE_SPACE)));
-  o.out.free_weight = std::min(1.0, std::pow(step / o.view.correlation, 2));
+  // of a mask its outline tells what is free, whatever neighbours' depths share
+  const double correlation =
+      has_mask ? std::min(o.view.correlation, OUTLINE_CORRELATION) : o.view.correlation;
+  o.out.free_weight = std::min(1.0, std::pow(step / correlation, 2));
   const auto beside = [&](int x, int y) {
     for (int dy = -margin; dy <= margin; ++dy)
       for (int dx = -margin; dx <= margin; ++dx)

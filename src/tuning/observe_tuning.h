@@ -93,16 +93,19 @@ inline constexpr double RIM = 3.0;
 inline constexpr double UPRIGHT = 0.25;
 /// [1] of the normal along the optical axis: the camera looks straight down; 25 degrees
 inline constexpr double FROM_ABOVE = 0.9;
-/// [1] of what is around the foot, that is the plane; more than half
-inline constexpr double SEEN = 0.5;
-/// [1] of it, that lies behind the plane, at most; chosen
-inline constexpr double THROUGH = 0.15;
 /// [points] of a side of the foot, that tell; a share is known to a tenth
 inline constexpr std::size_t FEWEST = 20;
 /// [depth] three sigma of unknown sensors; depth cameras, stereo at 1 m
 inline constexpr double NOISE = 0.008;
 /// [radius] height of a fiftieth of a disc's area at its lower edge; geometry
 inline constexpr double FIFTIETH = 0.1;
+/// [size] how far beyond the foot a table goes on, at least; chosen
+inline constexpr double BESIDE = 0.5;
+/// [points] in a direction from the foot, that tell; most of them
+inline constexpr std::size_t FEWEST_OF_SECTOR = 3;
+/// [1] of the directions that tell, in which the table goes on: a thing may stand at
+/// its edge; geometry: a straight edge takes a third
+inline constexpr double CARRIED = 2.0 / 3.0;
 } // namespace observe_table
 
 namespace point_spread {

@@ -45,6 +45,12 @@ namespace free_space {
 /// [size] how far parts stick out where the object is hollow; what is no superquadric
 /// is not followed closer
 inline constexpr double FREE_SIGMA = 0.03;
+/// [px] of a piece that are looked at; budget
+inline constexpr std::size_t INSIDE = 500;
+/// [px] inside the outline, which may be either's; a sensor's rim
+inline constexpr int MARGIN = 2;
+/// [planes] that tell a body's outline; budget
+inline constexpr int OUTLINE_PLANES = 24;
 } // namespace free_space
 
 namespace local_noise {

@@ -124,6 +124,10 @@ inline constexpr double SEEN_LENGTH = 0.6;
 inline constexpr double STRAY = 0.02;
 /// [rad] to either side, of a bend that starts straight; budget
 inline constexpr double SLIGHT = 0.1;
+/// [steps] of the search, after which the promising starts go on; budget
+inline constexpr int FIRST_ITERATIONS = 4;
+/// [starts] that go on; budget
+inline constexpr std::size_t PROMISING = 4;
 /// [starts] that are refined; budget
 inline constexpr std::size_t KEPT = 2;
 /// [steps] of a fit; budget

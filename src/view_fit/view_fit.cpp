@@ -89,7 +89,8 @@ namespace detail {
 
 ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                    const ViewEvidence& evidence,
-                   const ViewFitOptions& options) {
+                   const ViewFitOptions& options,
+                   const Objection& objection) {
   ViewFit result;
   ViewProblem problem;
   if (!problem.prepare(points, evidence, options)) {
@@ -114,6 +115,12 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (options.choose_shape)
     if (const auto tin = fitLid(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*tin);
+  if (objection)
+    for (ShapeCandidate& c : result.candidates) {
+      const double against = objection(problem.frame().toCloud(c.model));
+      c.cost += against;
+      c.bic += against;
+    }
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),
