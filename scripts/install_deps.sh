@@ -13,7 +13,7 @@ packages=(
   clang-format-14 doxygen help2man python3
   pybind11-dev python3-dev python3-numpy
   python3-pytest python3-mypy python3-distributed python3-jsonschema
-  liburdfdom-tools assimp-utils
+  liburdfdom-tools assimp-utils libsdformat-dev
   "$@"
 )
 

@@ -4,6 +4,7 @@
 #include "families/families.h"
 #include "families/family_step.h"
 #include "geometry/bend.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/shape_spaces.h"
 
 #include <algorithm>
@@ -13,16 +14,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Cost per observation from which on no family is near the body, as for a
- * taper: where one is, a bend is not looked for. */
-constexpr double MISFIT = 1.3;
-constexpr double WIDE = 0.03;       ///< sigma of the search, in the points' deviation
-constexpr double SLENDER = 2.0;     ///< a rod's length over its width at least
-constexpr double SEEN_LENGTH = 0.6; ///< share of a rod's length that has points
-constexpr double STRAY = 0.02;      ///< share of the points beyond either end
-constexpr double SLIGHT = 0.1;  ///< rad to either side, of a bend that starts straight
-constexpr std::size_t KEPT = 2; ///< starts that are refined
-constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 25;
+using namespace tuning::family;
+using namespace tuning::fit_bent;
+using namespace tuning::shared;
 
 struct Rod {
   Superquadric model;
@@ -80,7 +74,6 @@ std::vector<Superquadric> straightStarts(const Superquadric& body) {
 
 /** \brief Cost of the points alone, in units of sigma^2. */
 double pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {
-  constexpr double OUTLIER = 0.01; // as in the fits
   std::vector<float> distances(points.size() + kernels::BLOCK);
   residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
   const RobustCost density{sigma, OUTLIER};
@@ -137,8 +130,12 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       Rod start{s};
       start.model.semi_axes.head<2>().setConstant(
           std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
-      found.push_back(fitRod(rough, start, SEARCH_ITERATIONS));
+      found.push_back(fitRod(rough, start, FIRST_ITERATIONS));
     }
+  std::sort(found.begin(), found.end(), cheaper);
+  found.resize(std::min(found.size(), PROMISING));
+  for (Rod& rod : found)
+    rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   // of what is not bent, a bottle for instance, no arc is nearer to the points

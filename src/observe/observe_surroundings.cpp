@@ -3,6 +3,7 @@
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
 #include "sensor/noise.h"
+#include "tuning/observe_tuning.h"
 #include "util/order_statistic.h"
 
 #include <algorithm>
@@ -13,10 +14,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outline [px]
-constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
-constexpr int BESIDE = 2;       ///< pixels between an outline and another thing's
-constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
+using namespace tuning::observe_surroundings;
 
 } // namespace
 

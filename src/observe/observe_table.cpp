@@ -3,6 +3,7 @@
 // checked against its points.
 #include "observe/observe_parts.h"
 #include "table/table_search.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -12,25 +13,11 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int PLANES = 6; ///< largest ones among which the table is
+using namespace tuning::observe_table;
 /** \brief A plane with a smaller share of what is left is found with as many trials as
  * make a miss unlikely: (1 - share^3)^n = 1 %. */
 constexpr PlaneDemand SMALLER = {0.1, 4600};
-constexpr double RIM = 3.0; ///< pixels beside the outline that are left out, at most
-/** \brief Least uprightness of a table's normal in the image. A wall that faces a level
- * camera has none, and a camera that looks down makes it negative. Nor is a camera
- * rolled by more than half a right angle. */
-constexpr double UPRIGHT = 0.25;
-constexpr double FROM_ABOVE = 0.9; ///< of the normal's part along the optical axis
-/** \brief How far beyond the foot a table goes on at least, over the object's size. */
-constexpr double BESIDE = 0.5;
-constexpr std::size_t FEWEST_OF_SECTOR = 3; ///< points in a direction that tell
-/** \brief Directions in which it does, of those that tell: a thing may stand at a
- * table's edge. */
-constexpr double CARRIED = 2.0 / 3.0;
 constexpr double PARAMETERS = 3.0; ///< of a plane: as many independent points fit any
-constexpr std::size_t FEWEST = 20; ///< points of a side of the foot that tell
-constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sensors
 
 /** \brief Where a plane is, as seen from the object. */
 enum class TableRelation { UNDER, ABOVE, FAR };
@@ -47,7 +34,6 @@ double quantile(std::vector<double> values, double share) {
  * beside the limb is left out, whose inner edge lies sqrt(2 r d) nearer to the camera;
  * and a fiftieth of the disc's area at its lower edge is r / 10 high. */
 double reachOf(const TableModel& table, const ObservedObject& observed) {
-  constexpr double FIFTIETH = 0.1;
   const PinholeCamera& camera = observed.camera;
   const Eigen::Vector3d ray =
       (observed.points.rowwise().mean() - camera.center).normalized();

@@ -4,6 +4,7 @@
 #include "pieces/free_space.h"
 #include "pieces/handle.h"
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_COST = 9.2; ///< of a point, as an outlier
-constexpr double LARGER =
-    1.25;                      ///< a handle than the box of its points: one side is hid
-constexpr double STRAY = 0.05; ///< of a handle's points, at either end
-constexpr double STANDS_OFF = 4.0; ///< sigmas from its box
-/** \brief Twice the logarithm of the odds, about 400 to 1, that a handle is a bent rod
- * and no disc: fingers go through. */
-constexpr double ROD = 12.0;
+using namespace tuning::shared;
+using namespace tuning::fit_handle;
 
 /** \brief Mean cost of points, none more than an outlier's. */
 double

@@ -3,6 +3,7 @@
 #include "families/families.h"
 #include "pieces/free_space.h"
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 #include "view_fit/search_view.h"
 
 #include <algorithm>
@@ -11,13 +12,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int QUICK_STARTS = 4;
-/** \brief Largest exponent of a part that a cut ends: composite things are made of
- * cans, boxes and balls. A pinched part follows errors of its points, and its hidden
- * side comes out too flat. */
-constexpr double PART_EPSILON = 1.0;
-constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
-constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
+using namespace tuning::fit_piece;
 
 /** \brief Heights above the table of points, of all but a few. */
 struct Heights {

@@ -5,6 +5,7 @@
 #include "pieces/body_outline.h"
 #include "pieces/piece_outline.h"
 #include "sensor/noise.h"
+#include "tuning/parts_tuning.h"
 #include "view_problem/plane_cost.h"
 
 #include <algorithm>
@@ -13,16 +14,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Largest cost of one contradiction: -2 ln of an outlier's density over the
- * Gaussian's peak, as for the points. */
-constexpr double MAX_COST = 9.2;
-/** \brief How far parts stick out where the object is hollow, over its size: what is no
- * superquadric cannot be followed closer. */
-constexpr double FREE_SIGMA = 0.03;
-
-constexpr std::size_t INSIDE = 500; ///< pixels of a piece that are looked at
-constexpr int MARGIN = 2;           ///< pixels inside the outline that may be either's
-constexpr int OUTLINE_PLANES = 24;  ///< that a body's outline is told by
+using namespace tuning::shared;
+using namespace tuning::free_space;
 
 bool isWellInside(const CellMask& mask, const Eigen::Vector2d& pixel) {
   const int x = int(pixel.x()), y = int(pixel.y());

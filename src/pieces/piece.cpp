@@ -2,6 +2,7 @@
 #include "pieces/piece.h"
 
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 
@@ -9,11 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t PIXEL_SAMPLE = 4000;
-/** \brief How well a cut says where a part ends, over the part's size: parts overlap.
- */
-constexpr double END_SIGMA = 0.25;
+using namespace tuning::part;
+using namespace tuning::piece;
 } // namespace
 
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {

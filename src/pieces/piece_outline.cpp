@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 
@@ -7,10 +8,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief How far from a cut the outline may be the joint's or the other part's, over
- * the part's size: shoulders are round, and cuts are not placed better than that. A
- * line that touches what is left of a bottle's shoulder makes its neck as wide. */
-constexpr double JOINT = 0.15;
+using namespace tuning::piece_outline;
 
 } // namespace
 

@@ -5,6 +5,7 @@
 #include "pieces/handle.h"
 #include "pieces/piece.h"
 #include "sensor/local_quadric.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +14,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t MIN_CLUSTER = 8; ///< of a handle's other arm
-constexpr double SAME_SIDE = 0.5;      ///< cosine of 60 degrees around the axis
-/** \brief How far a handle sticks out at least, over the body's radius: fingers go
- * through, and what hugs the wall is the wall. */
-constexpr double STICKS_OUT = 0.2;
-constexpr double NARROW = 1.0; ///< how wide it is along the wall at most, over the same
-constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
-constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
-constexpr int PLANES = 48;                ///< of the body's outline
-constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
+using namespace tuning::part;
+using namespace tuning::stand_off;
+using namespace tuning::shared;
 
 /** \brief The body, larger by a margin on all sides. */
 Superquadric grown(Superquadric body, double margin) {
@@ -171,7 +164,6 @@ bool standsOff(const PieceContext& context,
 }
 
 double scatter(const PieceContext& context, const Piece& piece) {
-  constexpr std::size_t MOST = 1000;
   constexpr double MEDIAN_OF_NORMAL = 0.6745;
   const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
   std::vector<int> some;

@@ -2,10 +2,10 @@
 // All things on a table: told apart, and each fitted by the estimation of one.
 #include "observe/observe_parts.h"
 #include "pcl_sq/stage_timer.h"
+#include "scene/scene_table.h"
 #include "scene/segment_scene.h"
 #include "scene/visible_share.h"
 #include "sensor/camera_pose.h"
-#include "table/table_search.h"
 #include "util/option_check.h"
 #include "util/parallel_for.h"
 
@@ -115,9 +115,13 @@ bool SceneEstimator::findTable() {
   const CloudPoints seen = moved_.size() == 0 ? points_ : CloudPoints(moved_);
   const ViewOptions view = pose.isIdentity() ? view_ : pose.toCamera(view_);
   if (!view_.table) {
-    const Standing found = findInImage(seen, input_.width, input_.height, view);
-    if (!found.thing.empty())
-      scene_.table = pose.toCloud(found.table);
+    PinholeCamera camera = camera_;
+    camera.center.setZero();
+    camera.rotation.setIdentity();
+    const SceneTable found =
+        findSceneTable(seen, input_.width, input_.height, camera, view.up);
+    if (found.table)
+      scene_.table = pose.toCloud(*found.table);
     else if (input_.labels.empty())
       return fail(found.planes == 0
                       ? "there is no table, that is no plane that holds a tenth of the "

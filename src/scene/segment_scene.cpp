@@ -3,9 +3,11 @@
 // it, patches to things where the evidence is for one thing.
 #include "scene/segment_scene.h"
 
-#include "scene/patches.h"
+#include "patches/patches.h"
+#include "scene/scene_table.h"
 #include "scene/table_color.h"
 #include "sensor/camera_pose.h"
+#include "sensor/observation.h"
 #include "table/depth_regions.h"
 #include "table/table_search.h"
 
@@ -15,36 +17,16 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double BELOW = 3.0; ///< standing heights below the table: not on it
-constexpr double MOST = 0.5;  ///< of what is seen beneath a region
-constexpr int BENEATH = 4;    ///< pixels that are looked at: some are missing
-
-/** \brief Whether a region stands beyond the table's edge: beneath its lowest pixels
- * there is neither the table nor another thing, but what lies far below. */
-bool besideTheTable(const SceneView& view,
-                    const Region& region,
-                    const CellMask& above) {
-  std::vector<int> lowest(std::size_t(view.width), -1); // of each column
-  for (const int c : region.pixels) {
-    int& low = lowest[std::size_t(c % view.width)];
-    low = std::max(low, c);
+/** \brief Whether pixels are of what goes from side to side of the image: a wall, an
+ * arm. */
+bool isCutTwice(const std::vector<int>& pixels, int width, int height) {
+  Region region;
+  for (const int c : pixels) {
+    const int x = c % width, y = c / width;
+    region.sides |= int(x == 0) | int(y == 0) << 1 | int(x == width - 1) << 2 |
+                    int(y == height - 1) << 3;
   }
-  int below = 0, known = 0;
-  for (const int c : lowest) {
-    if (c < 0)
-      continue;
-    const int x = c % view.width, y = c / view.width;
-    for (int far = 1; far <= BENEATH && y + far < view.height; ++far) {
-      const int d = c + far * view.width;
-      if (above(x, y + far) || !view.finite(d))
-        continue;
-      ++known;
-      below += view.table.height(view.at(d)) <
-               -BELOW * standingHeight(view.table, double(view.points(2, d)));
-      break;
-    }
-  }
-  return double(below) > MOST * double(known);
+  return !region.cutOnce();
 }
 
 /** \brief Of an object's pixels: a smaller piece is a handle, a label, or a scrap of
@@ -54,15 +36,18 @@ constexpr double GOOD_SHARE = 0.15;
 } // namespace
 
 SceneSegments segmentScene(const SceneView& view, int min_pixels) {
-  CellMask pixels(view.width, view.height);
   const CellMask above = pixelsAbove(view.table, view.points, view.width, view.height);
-  for (const Region& region : regionsOf(view.points, above)) {
-    if (!region.cutOnce() || besideTheTable(view, region, above))
-      continue;
+  const TableArea area(view.table, view.points, view.width, view.height, view.camera);
+  CellMask over = above;
+  if (!area.empty())
+    for (std::size_t i = 0; i < over.cells.size(); ++i)
+      over.cells[i] = over.cells[i] && area.isOver(view.at(int(i)));
+  CellMask pixels(view.width, view.height);
+  for (const Region& region : regionsOf(view.points, over))
     for (const int c : region.pixels)
       pixels.cells[std::size_t(c)] = 1;
-  }
   const TableColor table(view, above);
+  table.removeHalo(pixels);
   Patches patches = patchesOf(view, divide(view, pixels));
   for (Patch& patch : patches.list)
     if (table.isRim(patch))
@@ -71,7 +56,8 @@ SceneSegments segmentScene(const SceneView& view, int min_pixels) {
   std::uint16_t next = 1;
   for (const Patch& thing : joinPatches(view, std::move(patches))) {
     if (int(thing.pixels.size()) < min_pixels ||
-        isThin(thing.pixels, view.width, view.height))
+        isThin(thing.pixels, view.width, view.height) ||
+        isCutTwice(thing.pixels, view.width, view.height))
       continue;
     for (const int c : thing.pixels)
       labels.values[std::size_t(c)] = next;

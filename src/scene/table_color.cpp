@@ -18,7 +18,8 @@ constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels
 constexpr float CLEARLY = 0.5F;    ///< of the distance to the table: the thing's own
 constexpr double OUTLINED = 0.7;   ///< of the outline, that is an edge of the colour
 constexpr double HIGHEST = 2.0;    ///< standing heights about the table
-constexpr int MISSING = 4;         ///< pixels without depth that are bridged
+constexpr int HALO = 8;    ///< pixels: as far as windows and interpolation reach
+constexpr int MISSING = 4; ///< pixels without depth that are bridged
 
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
@@ -106,6 +107,59 @@ bool TableColor::isRim(const Patch& patch) const {
   const int middle = patch.pixels[patch.pixels.size() / 2];
   return hueDistance(shadeOf(patch.sums.color / patch.sums.count),
                      near(middle % view_.width, middle / view_.width)) < SAME_COLOR;
+}
+
+void TableColor::removeHalo(CellMask& pixels) const {
+  if (cells_.empty())
+    return;
+  const int w = view_.width;
+  std::vector<int> steps(pixels.cells.size(), 0); // from outside, 0: not reached
+  std::deque<int> queue;
+  const auto reach = [&](int x, int y, int step) {
+    const int c = y * w + x;
+    if (!pixels(x, y) || steps[std::size_t(c)] > 0 ||
+        hueDistance(shadeAt(x, y), near(x, y)) > LIKE_TABLE)
+      return;
+    steps[std::size_t(c)] = step;
+    queue.push_back(c);
+  };
+  const auto around = [w](int c, const auto& use) {
+    use(c % w - 1, c / w);
+    use(c % w + 1, c / w);
+    use(c % w, c / w - 1);
+    use(c % w, c / w + 1);
+  };
+  for (int y = 0; y < view_.height; ++y)
+    for (int x = 0; x < w; ++x)
+      if (pixels(x, y) && (!pixels(x - 1, y) || !pixels(x + 1, y) ||
+                           !pixels(x, y - 1) || !pixels(x, y + 1)))
+        reach(x, y, 1);
+  std::deque<std::pair<int, int>> inside; // with steps that are left, outwards
+  while (!queue.empty()) {
+    const int c = queue.front();
+    queue.pop_front();
+    const int step = steps[std::size_t(c)];
+    if (step > HALO)
+      inside.emplace_back(c, HALO);
+    else
+      around(c, [&](int x, int y) { reach(x, y, step + 1); });
+  }
+  while (!inside.empty()) {
+    const auto [c, left] = inside.front();
+    inside.pop_front();
+    const int more = left - 1;
+    around(c, [&](int x, int y) {
+      if (const int d = y * w + x; pixels(x, y) && steps[std::size_t(d)] > 0) {
+        steps[std::size_t(d)] = 0;
+        if (more > 0)
+          inside.emplace_back(d, more);
+      }
+    });
+    steps[std::size_t(c)] = 0;
+  }
+  for (std::size_t c = 0; c < steps.size(); ++c)
+    if (steps[c] > 0)
+      pixels.cells[c] = 0;
 }
 
 void TableColor::growFeet(LabelImage& labels) const {

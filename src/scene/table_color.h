@@ -3,7 +3,7 @@
 // the lowest parts of things, which depth cannot tell from the table.
 #pragma once
 
-#include "scene/patches.h"
+#include "patches/patches.h"
 
 namespace pcl_sq::detail {
 
@@ -16,6 +16,11 @@ public:
   /** \brief Whether patches that are but rims have the table's colour: depth that
    * matching windows have given to the table beside a thing. */
   [[nodiscard]] bool isRim(const Patch& patch) const;
+
+  /** \brief Takes away what borders on other pixels and has the table's colour: depth
+   * that the sensor has given to the table beside a thing. What has the table's colour
+   * throughout stays whole. */
+  void removeHalo(CellMask& pixels) const;
 
   /** \brief Adds to things the pixels at the height of the table that have their colour
    * and not the table's. */

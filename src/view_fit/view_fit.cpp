@@ -3,6 +3,7 @@
 
 #include "families/families.h"
 #include "pcl_sq/multi_superquadric.h"
+#include "tuning/view_tuning.h"
 #include "union/surface_statistics.h"
 #include "util/option_check.h"
 #include "util/parallel_for.h"
@@ -16,8 +17,7 @@ namespace {
 
 using namespace detail;
 
-constexpr double START_SIGMA = 0.1; ///< in the points' standard deviation
-constexpr std::size_t KEPT = 3;     ///< starts that are refined
+using namespace tuning::view_fit;
 
 bool cheaper(const Trial& a, const Trial& b) {
   return a.cost < b.cost;

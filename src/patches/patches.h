@@ -3,7 +3,7 @@
 // thing.
 #pragma once
 
-#include "scene/superpixels.h"
+#include "patches/superpixels.h"
 
 #include <map>
 

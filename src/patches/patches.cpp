@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/patches.h"
+#include "patches/patches.h"
 
 #include "sensor/observation.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
 constexpr double SAME_PATCH = 1.5; ///< of whole patches
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr double CREASE = 0.7;     ///< angle of normals [rad], concave: a fold
+constexpr double CREASE = 0.35;    ///< angle of normals [rad], concave: a fold
 constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
@@ -40,14 +40,6 @@ public:
 private:
   std::vector<int> parent_;
 };
-
-/** \brief Whether two neighbouring pieces make a fold that opens to the camera. */
-bool foldedInwards(const PieceSums& a, const PieceSums& b) {
-  const Eigen::Vector3d na = a.normal(), nb = b.normal();
-  const Eigen::Vector3d d = (b.mean() - a.mean()).normalized();
-  const double angle = std::acos(std::clamp(na.dot(nb), -1.0, 1.0));
-  return angle > CREASE && (na - nb).dot(d) > 0.0;
-}
 
 void measure(const SceneView& view, Patch& patch) {
   std::vector<double> heights;
@@ -149,7 +141,7 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
     const PieceSums& b = superpixels.pieces[std::size_t(pair.second)];
     const double distance = colorDistance(a, b);
     if (distance < SAME_COLOR && border.jumps < JUMPS * border.pairs &&
-        !foldedInwards(a, b))
+        border.meanFold() < CREASE)
       links.push_back({pair.first, pair.second, distance});
   }
   std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
@@ -186,9 +178,7 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
     const int b = number[std::size_t(sets.root(pair.second))];
     if (a == b)
       continue;
-    Border& sum = patches.borders[std::minmax(a, b)];
-    sum.pairs += border.pairs;
-    sum.jumps += border.jumps;
+    patches.borders[std::minmax(a, b)].add(border);
   }
   for (Patch& patch : patches.list)
     measure(view, patch);

@@ -2,7 +2,7 @@
 // Private. Small compact pieces of the surfaces that are seen, and which of them touch.
 #pragma once
 
-#include "scene/segment_scene.h"
+#include "patches/scene_view.h"
 
 #include <vector>
 
@@ -33,6 +33,13 @@ struct PieceSums {
 struct Border {
   int pairs = 0; ///< of neighbouring pixels
   int jumps = 0; ///< of them, with a jump in depth beyond noise and slope
+  /** \brief Sum over the others of the angle between the pieces' normals [rad],
+   * positive where the fold opens to the camera. */
+  double fold = 0.0;
+
+  void add(const Border& other);
+  /** \brief Mean of the angle [rad]. */
+  double meanFold() const { return pairs > jumps ? fold / (pairs - jumps) : 0.0; }
 };
 
 /** \brief Pieces of about the same size whose pixels are alike in place, depth and

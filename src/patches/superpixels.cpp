@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Superpixels as Achanta et al. (SLIC, PAMI 2012) make them, with depth beside colour.
-#include "scene/superpixels.h"
+#include "patches/superpixels.h"
+
+#include "patches/pixel_normals.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -22,12 +24,15 @@ constexpr double STEEPEST = 5.0;
 constexpr double CHROMA_STEP = 0.03; ///< shares of red, green, blue that are told apart
 constexpr double LIGHT_STEP = 0.7;   ///< logarithm: light and shade of one colour
 
+constexpr float TURN = 0.35F; ///< of a normal: a fold that may part things [rad]
+
 /** \brief A colour in steps that tell colours apart. */
 using Shade = Eigen::Vector4f;
 
 struct Seed {
   Eigen::Vector3f at = Eigen::Vector3f::Zero(); ///< pixel and depth
   Shade shade = Shade::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< zero: not known
   float count = 0.0F;
 };
 
@@ -44,6 +49,7 @@ public:
         set_.push_back(int(i));
     of_pixel_.assign(pixels.cells.size(), -1);
     shades_.resize(pixels.cells.size(), Shade::Zero());
+    normals_ = pixelNormals(view, pixels, SIGMAS * noise_);
     for (const int c : set_) {
       of_pixel_[std::size_t(c)] = cellOf(c);
       if (view.colors.cols() > 0)
@@ -74,12 +80,14 @@ private:
       s.at += Eigen::Vector3f(
           float(c % view_.width), float(c / view_.width), view_.points(2, c));
       s.shade += shades_[std::size_t(c)];
+      s.normal += normals_.col(c);
       s.count += 1.0F;
     }
     for (Seed& s : seeds_)
       if (s.count > 0.0F) {
         s.at /= s.count;
         s.shade /= s.count;
+        s.normal.normalize();
       }
   }
   void assign(int c) {
@@ -96,8 +104,10 @@ private:
         const Seed& s = seeds_[std::size_t(j * columns_ + i)];
         if (s.count == 0.0F)
           continue;
-        const float d = (at - s.at).cwiseProduct(scale).squaredNorm() +
-                        0.25F * (shades_[std::size_t(c)] - s.shade).squaredNorm();
+        float d = (at - s.at).cwiseProduct(scale).squaredNorm() +
+                  0.25F * (shades_[std::size_t(c)] - s.shade).squaredNorm();
+        if (!normals_.col(c).isZero())
+          d += (normals_.col(c) - s.normal).squaredNorm() / (TURN * TURN);
         if (d < best) {
           best = d;
           of_pixel_[std::size_t(c)] = j * columns_ + i;
@@ -172,6 +182,7 @@ private:
   std::vector<int> set_;
   std::vector<int> of_pixel_;
   std::vector<Shade> shades_; ///< of each pixel
+  Eigen::Matrix3Xf normals_;
   std::vector<Seed> seeds_;
 };
 
@@ -190,6 +201,12 @@ void PieceSums::add(const PieceSums& other) {
   point += other.point;
   square += other.square;
   color += other.color;
+}
+
+void Border::add(const Border& other) {
+  pairs += other.pairs;
+  jumps += other.jumps;
+  fold += other.fold;
 }
 
 Eigen::Vector3d PieceSums::normal() const {
@@ -229,7 +246,6 @@ Superpixels divide(const SceneView& view, const CellMask& pixels) {
     piece = n;
   }
   result.pieces.resize(std::size_t(count));
-  std::map<std::pair<int, int>, Border> borders;
   for (int c = 0; c < int(result.of_pixel.size()); ++c) {
     const int piece = result.of_pixel[std::size_t(c)];
     if (piece < 0)
@@ -241,6 +257,16 @@ Superpixels divide(const SceneView& view, const CellMask& pixels) {
     sums.square += p * p.transpose();
     if (view.colors.cols() > 0)
       sums.color += view.colors.col(c).cast<double>();
+  }
+  std::vector<Eigen::Vector3d> normals;
+  for (const PieceSums& piece : result.pieces)
+    normals.push_back(piece.normal());
+  std::map<std::pair<int, int>, Border> borders;
+  for (int c = 0; c < int(result.of_pixel.size()); ++c) {
+    const int piece = result.of_pixel[std::size_t(c)];
+    if (piece < 0)
+      continue;
+    const Eigen::Vector3d p = view.at(c);
     const int x = c % view.width, y = c / view.width;
     for (int far = 1; far <= REACH; ++far)
       for (const int step : {1, view.width}) {
@@ -255,10 +281,22 @@ Superpixels divide(const SceneView& view, const CellMask& pixels) {
         Border& border = borders[std::minmax(piece, other)];
         const double z = std::min(p.z(), double(view.points(2, d)));
         const double slope = STEEPEST * far * z / view.camera.fx;
+        const double error = SIGMAS * noise * z * z;
+        const Eigen::Vector3d across = view.at(d) - p;
+        // off both surfaces: a limb before what is close behind it
+        const double off = std::min(std::abs(normals[std::size_t(piece)].dot(across)),
+                                    std::abs(normals[std::size_t(other)].dot(across)));
         ++border.pairs;
-        border.jumps += std::abs(p.z() - double(view.points(2, d))) >
-                        slope + SIGMAS * noise * z * z;
+        border.jumps += std::abs(across.z()) > slope + error || off > error;
       }
+  }
+  for (auto& [pair, border] : borders) {
+    const auto a = std::size_t(pair.first), b = std::size_t(pair.second);
+    const Eigen::Vector3d off = normals[a] - normals[b];
+    const double angle = std::acos(std::clamp(normals[a].dot(normals[b]), -1.0, 1.0));
+    const Eigen::Vector3d along = result.pieces[b].mean() - result.pieces[a].mean();
+    const double fold = off.dot(along) > 0.0 ? angle : -angle;
+    border.fold = (border.pairs - border.jumps) * fold;
   }
   result.borders.assign(borders.begin(), borders.end());
   return result;

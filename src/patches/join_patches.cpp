@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which patches are one thing: what one body explains better than two, and what cannot
 // stand by itself.
-#include "scene/one_body.h"
-#include "scene/patches.h"
+#include "patches/one_body.h"
+#include "patches/patches.h"
 #include "sensor/observation.h"
 #include "util/parallel_for.h"
 
@@ -14,13 +14,17 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t SCRAP = 150; ///< pixels too few for a body of their own
-constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr int LEAST_BORDER = 3;    ///< pairs of pixels that make a contact
-constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
+constexpr std::size_t SCRAP = 150;  ///< pixels too few for a body of their own
+constexpr double JUMPS = 0.5;       ///< of a border, at which it is an edge in depth
+constexpr int LEAST_BORDER = 3;     ///< pairs of pixels that make a contact
+constexpr double SAME_COLOR = 1.5;  ///< of colorDistance()
+constexpr double CREASE = 0.35;     ///< mean angle of a fold that may part things [rad]
+constexpr double BULGE = -0.2;      ///< the same, of an edge that one thing alone has
+constexpr double CORRELATION = 7.0; ///< pixels that share their errors
 /** \brief The same where no body need explain both: printed things of many colours are
  * alike in the mean. */
 constexpr double ONE_COLOR = 0.75;
+constexpr double WIDE = 0.5;    ///< of a patch's width, where its surface goes on
 constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
 constexpr double OVERLAP = 0.9; ///< of a footprint's radius: in each other's place
 /** \brief The same of two round bodies of one size that touch is 2 over the square root
@@ -41,6 +45,7 @@ public:
   std::vector<Patch> run() {
     joinScraps();
     joinOverlapping();
+    joinBulging();
     joinBodies();
     joinInterrupted();
     joinOverlapping();
@@ -72,15 +77,13 @@ private:
       const int j = pair.second == from ? into : pair.second;
       if (i == j)
         continue;
-      Border& sum = borders[std::minmax(i, j)];
-      sum.pairs += border.pairs;
-      sum.jumps += border.jumps;
+      borders[std::minmax(i, j)].add(border);
     }
     borders_.swap(borders);
-    for (auto it = gains_.begin(); it != gains_.end();)
+    for (auto it = scores_.begin(); it != scores_.end();)
       it = it->first.first == into || it->first.second == into ||
                    it->first.first == from || it->first.second == from
-               ? gains_.erase(it)
+               ? scores_.erase(it)
                : std::next(it);
   }
 
@@ -88,7 +91,8 @@ private:
     return border.pairs >= LEAST_BORDER && border.jumps < JUMPS * border.pairs;
   }
 
-  /** \brief Small patches join the neighbour whose colour is nearest. */
+  /** \brief Small patches join the neighbour whose colour is nearest, rather not across
+   * a fold. */
   void joinScraps() {
     for (bool joined = true; joined;) {
       joined = false;
@@ -100,7 +104,8 @@ private:
         if (std::min(a, b) >= SCRAP || std::min(a, b) == 0 || !touches(border))
           continue;
         const double off = colorDistance(list_[std::size_t(pair.first)].sums,
-                                         list_[std::size_t(pair.second)].sums);
+                                         list_[std::size_t(pair.second)].sums) +
+                           std::max(0.0, border.meanFold()) / CREASE;
         if (off < best) {
           best = off;
           from = a < b ? pair.first : pair.second;
@@ -176,25 +181,74 @@ private:
     });
   }
 
+  /** \brief Whether two patches meet along a good share of the smaller one's width. */
+  bool isWide(std::pair<int, int> pair, const Border& border) const {
+    const std::size_t least = std::min(list_[std::size_t(pair.first)].pixels.size(),
+                                       list_[std::size_t(pair.second)].pixels.size());
+    return double(border.pairs - border.jumps) > WIDE * std::sqrt(double(least));
+  }
+
+  /** \brief Evidence for one thing where the surface goes on from one patch to the
+   * other: of two things that meet, each place where neighbours' errors differ would
+   * have to be flush by chance. */
+  double flush(std::pair<int, int> pair) const {
+    const auto found = borders_.find(pair);
+    if (found == borders_.end())
+      return 0.0;
+    const Border& border = found->second;
+    if (!touches(border) || !isWide(pair, border) || border.meanFold() >= CREASE)
+      return 0.0;
+    return 2.0 * std::log(0.5 * M_PI / CREASE) * (border.pairs - border.jumps) /
+           CORRELATION;
+  }
+
+  /** \brief Patches that meet in an edge that bulges to the camera, such as a box's
+   * sides or a can's and its lid: two things leave a step or a groove. */
+  void joinBulging() {
+    for (bool joined = true; joined;) {
+      joined = false;
+      double best = BULGE;
+      std::pair<int, int> which;
+      for (const auto& [pair, border] : borders_)
+        if (touches(border) && alive(pair.first) && alive(pair.second) &&
+            isWide(pair, border) && border.meanFold() < best) {
+          best = border.meanFold();
+          which = pair;
+          joined = true;
+        }
+      if (joined)
+        join(which.second, which.first);
+    }
+  }
+
   void joinBodies() {
     for (;;) {
       const std::vector<std::pair<int, int>> pairs = candidates();
       std::vector<std::pair<int, int>> fresh;
-      for (const auto& pair : pairs)
-        if (gains_.count(pair) == 0)
+      const auto demand = [&](std::pair<int, int> pair) {
+        if (scores_.emplace(pair, BodyScore()).second)
           fresh.push_back(pair);
-      std::vector<double> gains(fresh.size());
+      };
+      for (const auto& pair : pairs) {
+        demand(pair);
+        demand({pair.first, pair.first});
+        demand({pair.second, pair.second});
+      }
       parallelFor(fresh.size(), view_.threads, [&](std::size_t i) {
-        gains[i] = gainOfOneBody(view_,
-                                 list_[std::size_t(fresh[i].first)].pixels,
-                                 list_[std::size_t(fresh[i].second)].pixels);
+        std::vector<int> pixels = list_[std::size_t(fresh[i].first)].pixels;
+        const std::vector<int>& more = list_[std::size_t(fresh[i].second)].pixels;
+        if (fresh[i].first != fresh[i].second)
+          pixels.insert(pixels.end(), more.begin(), more.end());
+        scores_.find(fresh[i])->second = scoreOfBody(view_, pixels);
       });
-      for (std::size_t i = 0; i < fresh.size(); ++i)
-        gains_[fresh[i]] = gains[i];
       double best = 0.0;
       std::pair<int, int> which{-1, -1};
       for (const auto& pair : pairs)
-        if (const double gain = gains_.at(pair); gain > best) {
+        if (const double gain = gainOfOneBody(scores_.at({pair.first, pair.first}),
+                                              scores_.at({pair.second, pair.second}),
+                                              scores_.at(pair)) +
+                                flush(pair);
+            gain > best) {
           best = gain;
           which = pair;
         }
@@ -288,7 +342,8 @@ private:
   const SceneView& view_;
   std::vector<Patch> list_;
   std::map<std::pair<int, int>, Border> borders_;
-  std::map<std::pair<int, int>, double> gains_;
+  /** \brief Of two patches together; of one where both are the same. */
+  std::map<std::pair<int, int>, BodyScore> scores_;
 };
 
 } // namespace

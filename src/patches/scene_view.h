@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Private. What is looked at.
+#pragma once
+
+#include "pcl_sq/impl/scene_estimation.hpp"
+
+namespace pcl_sq::detail {
+
+/** \brief An organized cloud in its camera's frame and what is known of it. */
+struct SceneView {
+  const CloudPoints& points;
+  int width, height;
+  const ColorMatrix& colors; ///< empty: none
+  PinholeCamera camera;      ///< at the origin
+  TableModel table;          ///< in the camera's frame
+  unsigned int threads = 1;  ///< 0: all cores
+
+  bool finite(int c) const { return points.col(c).allFinite(); }
+  Eigen::Vector3d at(int c) const { return points.col(c).cast<double>(); }
+};
+
+} // namespace pcl_sq::detail
