@@ -25,6 +25,11 @@ double halfDiagonal(const Eigen::Matrix3Xd& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
+int pixelStep(const ObservedObject& o) {
+  return std::max(
+      1, static_cast<int>(std::sqrt(double(o.pixels.count()) / double(PIXEL_SAMPLE))));
+}
+
 Piece wholePiece(const PieceContext& context) {
   Piece piece;
   for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)
@@ -32,8 +37,7 @@ Piece wholePiece(const PieceContext& context) {
   piece.contour = context.observed.contour;
   const CellMask& mask = context.observed.pixels;
   const CellRect box = boundingRect(mask);
-  const int step = std::max(
-      1, static_cast<int>(std::sqrt(double(mask.count()) / double(PIXEL_SAMPLE))));
+  const int step = pixelStep(context.observed);
   const auto onGrid = [step](int from) { return (from + step - 1) / step * step; };
   for (int y = onGrid(box.y); y < box.y + box.height; y += step)
     for (int x = onGrid(box.x); x < box.x + box.width; x += step)
