@@ -9,10 +9,10 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int HALF = 4; ///< pixels about each: a superpixel's size
-constexpr int STEP = 2; ///< of them are looked at: neighbours share their errors
-constexpr float LEAST = 6.0F;      ///< of a plane's pixels
-constexpr float STEEPEST = 5.0F;   ///< see superpixels.cpp
+constexpr int HALF = 4;       ///< pixels about each: a superpixel's size
+constexpr int STEP = 2;       ///< of them are looked at: neighbours share their errors
+constexpr float LEAST = 6.0F; ///< of a plane's pixels
+constexpr float STEEPEST = 5.0F; ///< see superpixels.cpp
 
 /** \brief Moments of a plane's inverse depths, which are linear in the pixel. */
 struct Moments {

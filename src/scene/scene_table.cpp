@@ -11,16 +11,16 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int PLANES = 6;           ///< among which the table is
-constexpr int COLUMNS = 160;        ///< of the thinned image in which planes are judged
-constexpr double DISTANCE = 0.008;  ///< of the depth: of a plane's points to it, at most
-constexpr double PART_OF_IT = 0.1;  ///< of a table's largest piece: another one
-constexpr double BEYOND = 0.5;      ///< of the image, by which a table goes on
+constexpr int PLANES = 6;          ///< among which the table is
+constexpr int COLUMNS = 160;       ///< of the thinned image in which planes are judged
+constexpr double DISTANCE = 0.008; ///< of the depth: of a plane's points to it, at most
+constexpr double PART_OF_IT = 0.1; ///< of a table's largest piece: another one
+constexpr double BEYOND = 0.5;     ///< of the image, by which a table goes on
 constexpr PlaneDemand DEMAND = {0.1, 4600}; ///< see table_search.cpp
 const double LEVEL = std::sqrt(0.5);        ///< see table_search.cpp
 constexpr double MORE_UPRIGHT = 0.5;        ///< the same
 constexpr double PARALLEL = 0.95;           ///< cosine of two levels' normals
-constexpr double MOSTLY = 0.5; ///< of a thing's pixels that are its top: a table's
+constexpr double MOSTLY = 0.5;  ///< of a thing's pixels that are its top: a table's
 constexpr double SMALL = 0.125; ///< of that top: the largest thing on it
 constexpr double LARGE = 0.2;   ///< of the floor's pixels, at least that top's
 
@@ -74,10 +74,10 @@ struct Thinned {
 struct Level {
   TableModel plane;
   double upright = 0.0;
-  int pixels = 0;              ///< of the plane
-  std::vector<Region> whole;   ///< things that the image does not cut
-  std::size_t standing = 0;    ///< their pixels
-  std::size_t cut = 0;         ///< those of things that one side cuts
+  int pixels = 0;            ///< of the plane
+  std::vector<Region> whole; ///< things that the image does not cut
+  std::size_t standing = 0;  ///< their pixels
+  std::size_t cut = 0;       ///< those of things that one side cuts
 };
 
 Level judge(const TableModel& plane, const Thinned& image) {
@@ -102,8 +102,8 @@ Level judge(const TableModel& plane, const Thinned& image) {
   return level;
 }
 
-/** \brief Whether one plane is the table before a wall that the other is: nearer to what
- * is square to that than to the wall itself. */
+/** \brief Whether one plane is the table before a wall that the other is: nearer to
+ * what is square to that than to the wall itself. */
 bool isBefore(const Level& table, const Level& wall) {
   const double square = std::sqrt(std::max(0.0, 1.0 - wall.upright * wall.upright));
   return table.upright > wall.upright + MORE_UPRIGHT &&

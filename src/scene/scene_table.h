@@ -2,9 +2,9 @@
 // Private. The table of a scene: which plane it is, and how far it reaches.
 #pragma once
 
+#include "patches/scene_view.h"
 #include "pcl_sq/cell_mask.h"
 #include "pcl_sq/object_view.h"
-#include "patches/scene_view.h"
 
 namespace pcl_sq::detail {
 
