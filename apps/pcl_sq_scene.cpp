@@ -9,7 +9,7 @@
 #include "report/summary.h"
 #include "stereo/scene_picture.h"
 #include "stereo/stereo_cloud.h"
-#include "stereo/stereo_front.h"
+#include "stereo/stereo_model.h"
 
 #ifdef PCL_SQ_HAVE_VISUALIZATION
 #include "pcl_sq/visualization/mesh_writer.h"
@@ -28,6 +28,7 @@ struct Arguments {
   ModelOptions model;
   SceneChoices choices;
   std::string labels, write_labels, panel;
+  ExportOptions exported;
 
   bool hasImages() const { return !front.right.empty() || !front.depth.empty(); }
 };
@@ -41,7 +42,6 @@ void configure(CLI::App& cli, Arguments& a) {
                  "Organized point cloud; or left image; or, with --depth, colour image")
       ->type_name("CLOUD|LEFT");
   cli.add_option("right", a.front.right, "Right image")->type_name("RIGHT");
-  addUnitOption(cli, a.model.cloud);
   addPairOptions(cli, a.front);
   cli.add_option("--labels",
                  a.labels,
@@ -49,27 +49,7 @@ void configure(CLI::App& cli, Arguments& a) {
                  "another number for each thing; used as it is")
       ->type_name("FILE")
       ->check(existingFile());
-  cli.add_option(
-         "--min-pixels", a.choices.min_pixels, "Things of fewer pixels are left out")
-      ->check(wholeNumber(30, 1000000))
-      ->capture_default_str();
-  cli.add_option("--intrinsics",
-                 a.model.intrinsics,
-                 "Camera [px]; of an organized cloud else found from the cloud")
-      ->expected(4)
-      ->delimiter(',')
-      ->type_name("FX,FY,CX,CY")
-      ->check(number(-FARTHEST, FARTHEST));
-  addFrameOptions(cli, a.model.frame);
-  cli.add_option("--max-parts",
-                 a.model.estimation.object_fit.max_parts,
-                 "Largest number of superquadrics of a thing")
-      ->check(wholeNumber(1, 16))
-      ->capture_default_str();
-  cli.add_flag_function(
-      "--taper,!--no-taper",
-      [&a](std::int64_t count) { a.model.taper = count > 0; },
-      "Let sections grow along the axis where the data demand it (default)");
+  addSceneOptions(cli, a.model, a.choices);
   cli.add_option("-o,--output", a.model.output, "Scene as JSON; -: standard output")
       ->type_name("FILE");
 #ifdef PCL_SQ_HAVE_VISUALIZATION
@@ -86,9 +66,7 @@ void configure(CLI::App& cli, Arguments& a) {
                  a.write_labels,
                  "Number of each pixel's thing as PNG, 0 where there is none")
       ->type_name("FILE");
-  cli.add_option("--threads", a.model.threads, "Number of threads, 0: all cores")
-      ->check(wholeNumber(0, 1024))
-      ->capture_default_str();
+  addSceneExportOptions(cli, a.exported);
 }
 
 /** \brief What can be wrong with the command line as a whole. */
@@ -105,6 +83,7 @@ void check(Arguments& a) {
   for (const std::string& calibration : a.front.calib)
     claimInput(calibration);
   checkModelOptions(a.model);
+  checkSceneExportOptions(a.exported);
   claimImage("--panel", a.panel);
   claimOutput("--write-labels", a.write_labels, {".png"});
 }
@@ -113,13 +92,8 @@ void check(Arguments& a) {
 LoadedCloud readInput(Arguments& a, std::vector<std::string>& notes) {
   if (!a.hasImages())
     return loadCloud(a.input, a.model.cloud);
-  a.front.stereo.matcher = a.front.matcher.value_or(StereoMatcher::SGBM);
-  a.front.stereo.refine = a.front.refine.value_or(true);
-  const StereoView front = readViews(a.front);
+  const StereoView front = readSceneViews(a.front, a.model);
   notes = front.notes;
-  const CameraIntrinsics& k = front.stereo.intrinsics;
-  a.model.intrinsics = {k.fx, k.fy, k.cx, k.cy};
-  tellNoise(front.stereo, a.model.estimation.view);
   return toLoadedCloud(*front.stereo.cloud, nullptr);
 }
 
@@ -165,6 +139,7 @@ int work(Arguments& a) {
     writeImage(a.panel, drawScene(input, result));
   if (!a.write_labels.empty())
     writeImage(a.write_labels, labelImage(result));
+  writeExports(a.exported, result.file, &input);
   if (!quiet())
     printScene(result);
   return DONE;
@@ -181,6 +156,7 @@ int main(int argc, char** argv) {
       "Fits unions of superquadrics to all things on a table in one view: an "
       "organized point cloud, a stereo pair or a depth image.",
       "  pcl_sq_scene scene.pcd -o scene.json --panel scene.png\n"
+      "  pcl_sq_scene scene.pcd --html scene.html --export things.scene\n"
       "  pcl_sq_scene scene.pcd --labels labels.png -o scene.json\n"
       "  pcl_sq_scene im0.png im1.png --calib calib.txt -o scene.json\n"
       "  pcl_sq_scene color.png --depth depth.png --intrinsics "

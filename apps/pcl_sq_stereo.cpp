@@ -108,9 +108,6 @@ void writeFront(const StereoView& front, const Outputs& outputs) {
     writeCloud(outputs.cloud, *front.stereo.cloud);
   if (!outputs.mask.empty() && !front.segment.mask.empty())
     writeImage(outputs.mask, front.segment.mask);
-  else if (!outputs.mask.empty())
-    note("there is no outline of the object, so '" + outputs.mask +
-         "' is not written; give another hint");
   if (!outputs.histogram.empty())
     writeImage(outputs.histogram,
                plotDepthHistogram(front.histogram, k.fx * k.baseline));
@@ -119,6 +116,20 @@ void writeFront(const StereoView& front, const Outputs& outputs) {
     pcl::copyPointCloud(*front.stereo.cloud, front.object, points);
     writeCloud(outputs.object_cloud, points);
   }
+}
+
+/** \brief Where no outline was found the mask is that of the points' pixels. */
+void writePixels(const CellMask& pixels, const std::string& path) {
+  if (pixels.cells.empty()) {
+    note("there is no outline of the object, so '" + path +
+         "' is not written; give another hint");
+    return;
+  }
+  cv::Mat mask(pixels.height, pixels.width, CV_8U);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      mask.at<std::uint8_t>(y, x) = pixels(x, y) ? 255 : 0;
+  writeImage(path, mask);
 }
 
 /** \brief Refuses what is for a single model. */
@@ -169,6 +180,8 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   line.clear();
   const ModelResult& result = made.result;
   printNotes(result);
+  if (!outputs.mask.empty() && front.segment.mask.empty())
+    writePixels(result.report.view.pixels, outputs.mask);
   writeOutputs(made.object, result, model);
   if (!outputs.panel.empty())
     writeImage(outputs.panel,

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each number of the single-view method moves.
+"""What each number of the single-view method (src/tuning) moves.
 
 usage: sensitivity.py BUILD SET... [--only NAME] [--factors 0.5,2] [--output TABLE.md]
 
-A copy of the sources is made in BUILD in which every named number of the folders below is
-read through a function that scales it by what the environment says; it is built once, and
-then each number is scaled by one half and by two over all sets. A set is the arguments of
-single_view_evaluation, as one word: "--no-mask scenes". Prints, for each number, the largest
-change of the mean IoU and of the share of exact counts over the sets, the largest first.
+A copy of the sources is made in BUILD in which each number is read through a function that
+scales it by what the environment says; it is built once, and then each number is scaled by
+one half and by two over all sets. A set is a name, "=" and a command of the shell with {bin}
+for the folder of the programs, whose last line of output ends in the figure of the set:
+
+  scenes="{bin}/single_view_evaluation scenes | awk '/^~all/ { print $3 }'"
+
+Prints for each number by how much it moves the figure of each set, the largest first.
+Numbers that move no figure by more than .001 share a line at the end.
 """
 import argparse
 import os
@@ -18,11 +22,9 @@ import shutil
 import subprocess
 import sys
 
-FOLDERS = ["observe", "sensor", "table", "view_fit", "parts"]
-TYPES = r"(double|float|int|std::size_t|Eigen::Index)"
-DECLARATION = re.compile(r"^(inline )?constexpr " + TYPES + r" ([A-Z][A-Z_0-9]*\s*=[^;]*);", re.M)
-HEADER = """#pragma once
-#include <cstdlib>
+LEAST = 0.001
+LINE = re.compile(r"(?:namespace (\w+) \{|inline constexpr (\S+) (\w+) = ([^;]+);)")
+READER = """#include <cstdlib>
 #include <cstring>
 inline double pclSqScale(const char* name) {
   const char* told = std::getenv("PCL_SQ_TUNE");
@@ -42,55 +44,58 @@ T pclSqTuned(const char* name, T value) {
 def instrument(source):
     """Rewrites the numbers of a copy of the sources. Returns their names."""
     names = []
-    (source / "src/tuned_numbers.h").write_text(HEADER)
-    for folder in FOLDERS:
-        for path in sorted((source / "src" / folder).iterdir()):
-            text = path.read_text()
-            fixed = set()  # sizes of arrays stay constants
-            for used in re.findall(r"(?:array<[^;>]*,|\[|Matrix<[^;>]*,) *([A-Z][A-Z_0-9]+)", text):
-                fixed.add(used)
+    for path in sorted((source / "src/tuning").iterdir()):
+        group = ""
 
-            def scaled(match):
-                kind, rest = match.group(2), match.group(3)
-                parts = [p.split("=", 1) for p in rest.split(",")] if "(" not in rest else \
-                    [rest.split("=", 1)]
-                own = [n.strip() for n, _ in parts]
-                derived = re.search(r"=[^;]*\b[A-Z][A-Z_]{2,}", rest)
-                if derived or any(n in fixed for n in own) or any(
-                        re.search(r"\b" + n + r"\b", text[match.end():]) and
-                        re.search(r"constexpr [^;=]*=[^;]*\b" + n + r"\b", text) for n in own):
-                    return match.group(0)
-                declared = []
-                for (name, value), n in zip(parts, own):
-                    key = f"{path.stem}.{n}"
-                    names.append(key)
-                    declared.append(f'{n} = pclSqTuned<{kind}>("{key}", {value.strip()})')
-                return f"{match.group(1) or ''}const {kind} " + ", ".join(declared) + ";"
+        def scaled(match):
+            nonlocal group
+            if match.group(1):
+                group = match.group(1)
+                return match.group(0)
+            kind, name, value = match.group(2, 3, 4)
+            names.append(f"{group}::{name}")
+            return f'inline const {kind} {name} = pclSqTuned<{kind}>("{names[-1]}", {value});'
 
-            changed = DECLARATION.sub(scaled, text)
-            if changed != text:
-                at = changed.index("#include") if "#include" in changed else 0
-                changed = changed[:at] + '#include "tuned_numbers.h"\n' + changed[at:]
-                path.write_text(changed)
+        text = LINE.sub(scaled, path.read_text())
+        path.write_text(text.replace("#pragma once", '#pragma once\n#include "reader.h"', 1))
+    (source / "src/reader.h").write_text("#pragma once\n" + READER)
+    # what is made of a number is no constant of the compiler any more
+    for path in (source / "src").rglob("*.cpp"):
+        text = path.read_text()
+        changed = re.sub(r"constexpr (\S+ [A-Z_]+ =[^;0-9]*\b[A-Z][A-Z_]+\b)", r"const \1", text) \
+            if "tuning::" in text else text
+        if changed != text:
+            path.write_text(changed)
     return names
 
 
-def measure(program, sets, tune=None):
-    """Mean IoU and share of exact counts of each set."""
+def measure(commands, tune=None):
+    """The figure of each set, or None where a command fails."""
     environment = dict(os.environ)
     environment.pop("PCL_SQ_TUNE", None)
     if tune:
         environment["PCL_SQ_TUNE"] = tune
     figures = []
-    for arguments in sets:
-        run = subprocess.run([program] + arguments.split(), env=environment, text=True,
-                             capture_output=True, timeout=600)
-        row = [line for line in run.stdout.splitlines() if line.startswith("~all")]
-        if not row:
-            return None
-        fields = row[0].split()
-        figures.append((float(fields[2]), float(fields[7].rstrip("%"))))
+    for command in commands:
+        run = subprocess.run(command, shell=True, env=environment, text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        numbers = re.findall(r"-?[0-9.]+", (run.stdout.strip().splitlines() or [""])[-1])
+        figures.append(float(numbers[-1]) if run.returncode == 0 and numbers else None)
     return figures
+
+
+def table(rows, sets, factors):
+    """Markdown: a line for each number that moves something, and one for the rest."""
+    head = [f"{s} x {f}" for f in factors for s in sets]
+    lines = ["| number | " + " | ".join(head) + " |", "|---" * (1 + len(head)) + "|"]
+    still = []
+    for most, name, moved in sorted(rows, reverse=True):
+        if most <= LEAST:
+            still.append(f"`{name}`")
+            continue
+        cells = ["fails" if m is None else f"{m:+.3f}" for m in moved]
+        lines.append(f"| `{name}` | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + f"\n\nAt most {LEAST}: " + ", ".join(sorted(still)) + ".\n"
 
 
 def main():
@@ -111,36 +116,23 @@ def main():
     subprocess.run(["cmake", "-S", source, "-B", build / "build", "-G", "Ninja",
                     "-DCMAKE_BUILD_TYPE=Release", "-DPCL_SQ_BUILD_BENCHMARKS=ON",
                     "-DPCL_SQ_BUILD_TESTS=OFF"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", build / "build", "--target",
+    subprocess.run(["cmake", "--build", build / "build", "--target", "pcl_sq_fit",
                     "single_view_evaluation"], check=True, stdout=subprocess.DEVNULL)
-    program = str(build / "build/bin/single_view_evaluation")
-    before = measure(program, options.sets)
-    if not before:
-        sys.exit("sensitivity.py: single_view_evaluation printed no table; are the sets right?")
+    sets, commands = zip(*(s.split("=", 1) for s in options.sets))
+    commands = [c.replace("{bin}", str(build / "build/bin")) for c in commands]
+    before = measure(commands)
+    if None in before:
+        sys.exit(f"sensitivity.py: no figure of {sets[before.index(None)]}; is its command right?")
+    print("unscaled:", dict(zip(sets, before)), file=sys.stderr, flush=True)
+    factors = options.factors.split(",")
     rows = []
     for done, name in enumerate(names):
-        moved = []
-        for factor in options.factors.split(","):
-            after = measure(program, options.sets, f"{name}*{factor}")
-            if not after:
-                moved.append((1.0, 100.0))
-                continue
-            iou = max((a[0] - b[0] for a, b in zip(after, before)), key=abs)
-            exact = max((a[1] - b[1] for a, b in zip(after, before)), key=abs)
-            moved.append((iou, exact))
-        rows.append((max(abs(m[0]) for m in moved), name, moved))
-        if sys.stderr.isatty():
-            print(f"\r{done + 1} of {len(names)}", end="", file=sys.stderr)
-        else:
-            print(name, moved, file=sys.stderr, flush=True)
-    rows.sort(reverse=True)
-    factors = options.factors.split(",")
-    lines = ["| number | " + " | ".join(f"x {f}: IoU, exact" for f in factors) + " |",
-             "|---" * (1 + len(factors)) + "|"]
-    for _, name, moved in rows:
-        lines.append(f"| `{name}` | " +
-                     " | ".join(f"{iou:+.4f}, {exact:+.0f} %" for iou, exact in moved) + " |")
-    text = "\n".join(lines) + "\n"
+        moved = [None if a is None else a - b for f in factors
+                 for a, b in zip(measure(commands, f"{name}*{f}"), before)]
+        rows.append((max(1.0 if m is None else abs(m) for m in moved), name, moved))
+        end = "" if sys.stderr.isatty() else f" {name} {moved}\n"
+        print(f"\r{done + 1} of {len(names)}", end=end, file=sys.stderr, flush=True)
+    text = table(rows, sets, factors)
     if options.output:
         pathlib.Path(options.output).write_text(text)
     print(text)

@@ -13,13 +13,13 @@ packages=(
   clang-format-14 doxygen help2man python3
   pybind11-dev python3-dev python3-numpy
   python3-pytest python3-mypy python3-distributed python3-jsonschema
-  liburdfdom-tools assimp-utils
+  liburdfdom-tools assimp-utils libsdformat-dev
   "$@"
 )
 
 # the names of the packages that are not installed
 missing() {
-  comm -23 <(printf '%s\n' "${packages[@]}" | sort) \
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) \
     <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null |
       sed -n 's/^installed //p' | sort -u)
 }

@@ -127,6 +127,8 @@ int run(int argc,
 void parseWords(const std::string& name,
                 const std::function<void(CLI::App&)>& configure,
                 std::vector<std::string> words) {
+  if (words.empty()) // every default stays; making the options takes longer than a call
+    return;
   CLI::App cli("", name);
   configure(cli);
   finishOptions(cli);

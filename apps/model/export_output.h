@@ -4,7 +4,7 @@
 
 #include "files/cloud_io.h"
 
-#include "pcl_sq/model_io.h"
+#include "pcl_sq/scene_io.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,16 +23,25 @@ struct ExportOptions {
 /** \brief Adds --export and --html to a program. */
 void addExportOptions(CLI::App& cli, ExportOptions& options);
 
+/** \brief The same for all things of a scene. */
+void addSceneExportOptions(CLI::App& cli, ExportOptions& options);
+
 /** \brief Adds --html alone. */
 void addHtmlOption(CLI::App& cli, ExportOptions& options);
 
 /** \brief Refuses files that could not be written later. */
 void checkExportOptions(const ExportOptions& options);
+/** \brief The same where a scene is written. */
+void checkSceneExportOptions(const ExportOptions& options);
 
 /** \brief Writes the files. \param[in] cloud of the page, or nullptr
  * \throw Failure */
 void writeExports(const ExportOptions& options,
                   const ModelFile& file,
+                  const LoadedCloud* cloud);
+/** \brief The same for all things of a scene. \throw Failure */
+void writeExports(const ExportOptions& options,
+                  const SceneFile& scene,
                   const LoadedCloud* cloud);
 
 } // namespace pcl_sq::app

@@ -2,6 +2,7 @@
 #include "model/scene_model.h"
 
 #include "command_line/app.h"
+#include "command_line/value_checks.h"
 #include "model/model_json.h"
 #include "options/offset.h"
 #include "report/size_doubt.h"
@@ -46,6 +47,34 @@ ModelResult thingOf(const LoadedCloud& input,
 }
 
 } // namespace
+
+void addSceneOptions(CLI::App& cli, ModelOptions& options, SceneChoices& choices) {
+  addUnitOption(cli, options.cloud);
+  cli.add_option(
+         "--min-pixels", choices.min_pixels, "Things of fewer pixels are left out")
+      ->check(wholeNumber(30, 1000000))
+      ->capture_default_str();
+  cli.add_option("--intrinsics",
+                 options.intrinsics,
+                 "Camera [px]; of an organized cloud else found from the cloud")
+      ->expected(4)
+      ->delimiter(',')
+      ->type_name("FX,FY,CX,CY")
+      ->check(number(-FARTHEST, FARTHEST));
+  addFrameOptions(cli, options.frame);
+  cli.add_option("--max-parts",
+                 options.estimation.object_fit.max_parts,
+                 "Largest number of superquadrics of a thing")
+      ->check(wholeNumber(1, 16))
+      ->capture_default_str();
+  cli.add_flag_function(
+      "--taper,!--no-taper",
+      [&options](std::int64_t count) { options.taper = count > 0; },
+      "Let sections grow along the axis where the data demand it (default)");
+  cli.add_option("--threads", options.threads, "Number of threads, 0: all cores")
+      ->check(wholeNumber(0, 1024))
+      ->capture_default_str();
+}
 
 SceneResult makeSceneFile(const LoadedCloud& input,
                           const std::string& input_path,
@@ -98,6 +127,16 @@ SceneResult makeSceneFile(const LoadedCloud& input,
     total += ms;
   file.timings_ms.emplace_back("total", total);
   return result;
+}
+
+LabelImage numberedPixels(const SceneResult& result) {
+  std::vector<std::uint16_t> number_of(65536, 0);
+  for (std::size_t k = 0; k < result.numbers.size(); ++k)
+    number_of[std::size_t(result.numbers[k])] = static_cast<std::uint16_t>(k + 1);
+  LabelImage image = result.labels;
+  for (std::uint16_t& value : image.values)
+    value = number_of[value];
+  return image;
 }
 
 void printScene(const SceneResult& result) {

@@ -23,12 +23,18 @@ struct SceneResult {
   std::vector<int> numbers;
 };
 
+/** \brief Adds what a scene's program asks, but for files and images, to a program. */
+void addSceneOptions(CLI::App& cli, ModelOptions& options, SceneChoices& choices);
+
 /** \brief Finds and fits all things. \throw Failure if there is none */
 SceneResult makeSceneFile(const LoadedCloud& input,
                           const std::string& input_path,
                           const ModelOptions& options,
                           const SceneChoices& choices,
                           double load_ms);
+
+/** \brief Number of each pixel's thing, from 1 on in the order of the file; 0: none. */
+LabelImage numberedPixels(const SceneResult& result);
 
 /** \brief The things for people, on stdout. */
 void printScene(const SceneResult& result);

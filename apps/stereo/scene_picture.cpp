@@ -139,16 +139,9 @@ cv::Mat drawScene(const LoadedCloud& input, const SceneResult& result) {
 }
 
 cv::Mat labelImage(const SceneResult& result) {
-  const LabelImage& labels = result.labels;
-  std::vector<std::uint16_t> number_of(65536, 0);
-  for (std::size_t k = 0; k < result.numbers.size(); ++k)
-    number_of[std::size_t(result.numbers[k])] = static_cast<std::uint16_t>(k + 1);
-  cv::Mat image(labels.height, labels.width, CV_16U);
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      image.at<std::uint16_t>(y, x) =
-          number_of[labels.values[std::size_t(y) * std::size_t(image.cols) +
-                                  std::size_t(x)]];
+  LabelImage labels = numberedPixels(result);
+  cv::Mat image =
+      cv::Mat(labels.height, labels.width, CV_16U, labels.values.data()).clone();
   if (result.numbers.size() < 256)
     image.convertTo(image, CV_8U);
   return image;

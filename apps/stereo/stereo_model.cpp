@@ -62,6 +62,15 @@ void chooseMatcher(const ModelOptions& model, FrontOptions& front) {
   front.stereo.refine = front.refine.value_or(best);
 }
 
+StereoView readSceneViews(FrontOptions& front, ModelOptions& model) {
+  chooseMatcher(model, front);
+  StereoView seen = readViews(front);
+  const CameraIntrinsics& k = seen.stereo.intrinsics;
+  model.intrinsics = {k.fx, k.fy, k.cx, k.cy};
+  tellNoise(seen.stereo, model.estimation.view);
+  return seen;
+}
+
 StereoModel makeStereoModel(const FrontOptions& options,
                             const StereoView& front,
                             ModelOptions model) {

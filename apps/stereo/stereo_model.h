@@ -18,6 +18,10 @@ struct StereoModel {
  * the best mode. */
 void chooseMatcher(const ModelOptions& model, FrontOptions& front);
 
+/** \brief From the images to the cloud of all things; the model's options are told the
+ * camera and its noise. \throw Failure */
+StereoView readSceneViews(FrontOptions& front, ModelOptions& model);
+
 /** \brief The model half. The best mode looks at the whole scene through the outline,
  * the paper's chain at the object's points in their box.
  * \throw Failure if there is no model */

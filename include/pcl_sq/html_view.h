@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/model_io.h"
+#include "pcl_sq/scene_io.h"
 
 #include <cstdint>
 #include <string>
@@ -29,6 +29,13 @@ struct PCL_SQ_EXPORTS HtmlViewOptions {
  * \param[in] offset is added to the points [m]
  * \param[in] colors 0xRRGGBB for each point, or empty */
 PCL_SQ_EXPORTS std::string htmlView(const ModelFile& file,
+                                    const CloudPoints& points,
+                                    const Eigen::Vector3d& offset,
+                                    const std::vector<std::uint32_t>& colors,
+                                    const HtmlViewOptions& options = {});
+
+/** \brief The same of all things of a scene; the parts of a thing share its colour. */
+PCL_SQ_EXPORTS std::string htmlView(const SceneFile& scene,
                                     const CloudPoints& points,
                                     const Eigen::Vector3d& offset,
                                     const std::vector<std::uint32_t>& colors,

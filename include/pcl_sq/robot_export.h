@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pcl_sq/graspit_export.h"
-#include "pcl_sq/model_io.h"
+#include "pcl_sq/scene_io.h"
 
 #include <string>
 #include <vector>
@@ -56,6 +56,24 @@ PCL_SQ_EXPORTS std::vector<TextFile> glbFiles(const ModelFile& file,
  * another ending. */
 PCL_SQ_EXPORTS std::vector<TextFile> robotFiles(const std::string& ending,
                                                 const ModelFile& file,
+                                                const RobotExportOptions& options = {});
+///@}
+
+/** \name All things of a scene in one file
+ * \return empty for a scene without things or options out of range */
+///@{
+/** \brief MoveIt: an object NAME_1, NAME_2 ... for each thing, and the table
+ * NAME_table.
+ */
+PCL_SQ_EXPORTS std::vector<TextFile>
+moveitFiles(const SceneFile& scene, const RobotExportOptions& options = {});
+/** \brief Binary glTF: the parts of a thing share its colour and are named "thing 1",
+ * or "thing 1, part 1" ... where it has several. */
+PCL_SQ_EXPORTS std::vector<TextFile> glbFiles(const SceneFile& scene,
+                                              const RobotExportOptions& options = {});
+/** \brief One of these by the ending ".scene" or ".glb"; empty for another ending. */
+PCL_SQ_EXPORTS std::vector<TextFile> robotFiles(const std::string& ending,
+                                                const SceneFile& scene,
                                                 const RobotExportOptions& options = {});
 ///@}
 

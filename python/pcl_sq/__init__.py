@@ -8,7 +8,7 @@ superquadrics, meshes and grasps out. Lengths are metres, arrays are numpy's.
 from __future__ import annotations
 
 import os
-from typing import Any, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +17,15 @@ from ._core import MultiSuperquadric, Superquadric, __version__
 from . import _core
 from ._model import Model, PathLike
 from ._options import in_python_words, words_of
+from ._scene import Scene, Thing
 from ._types import Array, Cloud, Contact, Error, Fit, Grasp, Mesh, OptionError
 
 __all__ = ["Cloud", "Contact", "Error", "Fit", "Grasp", "Mesh", "Model", "MultiSuperquadric",
-           "OptionError", "Superquadric", "__version__", "estimate", "estimate_depth",
-           "estimate_stereo", "fit_superquadric", "load", "read_cloud"]
+           "OptionError", "Scene", "Superquadric", "Thing", "__version__", "estimate",
+           "estimate_depth", "estimate_scene", "estimate_scene_depth", "estimate_scene_stereo",
+           "estimate_stereo", "fit_superquadric", "load", "load_scene", "read_cloud"]
+
+_UNITS = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254}
 
 
 def estimate(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
@@ -52,26 +56,44 @@ def estimate(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
         file, indices = _core.estimate(array, None if colors is None else np.asarray(colors),
                                        None if mask is None else np.asarray(mask), frame,
                                        words)
-    scale = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254}.get(unit)
+    scale = _UNITS.get(unit)
     return Model(file, array if scale is None else array * scale,
                  None if colors is None else np.asarray(colors, np.uint8), indices)
 
 
-def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
-                 depth: Optional[npt.ArrayLike], mask: Optional[npt.ArrayLike],
-                 calibration: Sequence[str], options: Any) -> Model:
+def _array(image: Optional[npt.ArrayLike]) -> Optional[Array]:
+    return None if image is None else np.asarray(image)
+
+
+def _stereo_module() -> Any:
     try:
         from . import _stereo
     except ModuleNotFoundError as error:
         raise Error("this pcl_sq was built without stereo; build it with "
                     "PCL_SQ_BUILD_STEREO=ON.") from error
+    return _stereo
 
-    def array(image: Optional[npt.ArrayLike]) -> Optional[Array]:
-        return None if image is None else np.asarray(image)
 
+def _files_of(calibration: Union[PathLike, Sequence[PathLike], None]) -> List[str]:
+    if calibration is None:
+        return []
+    if isinstance(calibration, (str, os.PathLike)):
+        return [os.fspath(calibration)]
+    return [os.fspath(path) for path in calibration]
+
+
+def _scaled(depth: npt.ArrayLike, depth_scale: Optional[float]) -> npt.ArrayLike:
+    return depth if depth_scale is None else np.asarray(depth, np.float32) * np.float32(
+        depth_scale)
+
+
+def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
+                 depth: Optional[npt.ArrayLike], mask: Optional[npt.ArrayLike],
+                 calibration: Sequence[str], options: Any) -> Model:
+    stereo = _stereo_module()
     with in_python_words():
-        text, cloud, colors, indices, notes = _stereo.estimate(
-            array(left), array(right), array(depth), array(mask), list(calibration),
+        text, cloud, colors, indices, notes = stereo.estimate(
+            _array(left), _array(right), _array(depth), _array(mask), list(calibration),
             words_of(options))
     model = Model(_core.ModelFile.from_json(text), cloud, colors,
                   np.asarray(indices, np.int64))
@@ -90,9 +112,8 @@ def estimate_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
     color_hint, segment, parts, ..."""
     if "color_hint" in options:
         options["color"] = options.pop("color_hint")
-    if depth_scale is not None:
-        depth = np.asarray(depth, np.float32) * np.float32(depth_scale)
-    return _from_images(color, None, depth, mask, [], dict(options, intrinsics=intrinsics))
+    return _from_images(color, None, _scaled(depth, depth_scale), mask, [],
+                        dict(options, intrinsics=intrinsics))
 
 
 def estimate_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
@@ -103,15 +124,55 @@ def estimate_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
     left, right: H x W x 3 RGB or H x W, of bytes or deeper. calibration: one file or two
     (OpenCV, ROS, Kalibr, ZED, Middlebury); or the options intrinsics and baseline. Hints and
     further options are those of pcl_sq_stereo: roi, click, matcher, parts, ..."""
-    if calibration is None:
-        files = []
-    elif isinstance(calibration, (str, os.PathLike)):
-        files = [os.fspath(calibration)]
-    else:
-        files = [os.fspath(path) for path in calibration]
     if "color_hint" in options:
         options["color"] = options.pop("color_hint")
-    return _from_images(left, right, None, mask, files, options)
+    return _from_images(left, right, None, mask, _files_of(calibration), options)
+
+
+def estimate_scene(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
+                   labels: Optional[npt.ArrayLike] = None, unit: str = "m", frame: str = "",
+                   **options: Any) -> Scene:
+    """All things on a table, each a model, from an image of points.
+
+    points: H x W x 3, NaN or 0 0 0 where there is none. labels: H x W whole numbers, things
+    told apart elsewhere, such as by a neural network: 0 nothing, another number for each
+    thing. Options are those of pcl_sq_scene with underscores: min_pixels, max_parts, taper,
+    intrinsics, viewpoint, table, up, threads."""
+    array = np.asarray(points)
+    with in_python_words():
+        file, numbers = _core.estimate_scene(
+            array, _array(colors), _array(labels), frame,
+            words_of(dict(options, unit=None if unit == "m" else unit)))
+    scale = _UNITS.get(unit)
+    return Scene(file, array if scale is None else array * scale,
+                 None if colors is None else np.asarray(colors, np.uint8), numbers)
+
+
+def _scene_from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
+                       depth: Optional[npt.ArrayLike], labels: Optional[npt.ArrayLike],
+                       calibration: List[str], options: Any) -> Scene:
+    stereo = _stereo_module()
+    with in_python_words():
+        text, cloud, colors, numbers = stereo.estimate_scene(
+            _array(left), _array(right), _array(depth), _array(labels), calibration,
+            words_of(options))
+    return Scene(_core.SceneFile.from_json(text), cloud, colors, numbers)
+
+
+def estimate_scene_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
+                         color: Optional[npt.ArrayLike] = None,
+                         labels: Optional[npt.ArrayLike] = None,
+                         depth_scale: Optional[float] = None, **options: Any) -> Scene:
+    """All things in a depth image; arguments as of estimate_depth() and estimate_scene()."""
+    return _scene_from_images(color, None, _scaled(depth, depth_scale), labels, [],
+                              dict(options, intrinsics=intrinsics))
+
+
+def estimate_scene_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
+                          calibration: Union[PathLike, Sequence[PathLike], None] = None, *,
+                          labels: Optional[npt.ArrayLike] = None, **options: Any) -> Scene:
+    """All things in a stereo pair; arguments as of estimate_stereo() and estimate_scene()."""
+    return _scene_from_images(left, right, None, labels, _files_of(calibration), options)
 
 
 def fit_superquadric(points: npt.ArrayLike, *, initial: Optional[Superquadric] = None,
@@ -148,3 +209,8 @@ def read_cloud(path: PathLike, *, unit: str = "m", samples: Optional[int] = None
 def load(path: PathLike) -> Model:
     """Reads a model file."""
     return Model.load(path)
+
+
+def load_scene(path: PathLike) -> Scene:
+    """Reads a scene file."""
+    return Scene.load(path)

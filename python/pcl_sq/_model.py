@@ -7,7 +7,7 @@ import os
 import tempfile
 import webbrowser
 from html import escape
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -30,7 +30,9 @@ class Model:
         self.colors = colors  #: their colours, or None
         self.object_indices = object_indices  #: rows of the points that are the object
         self.grasps: List[Grasp] = []  #: of the last plan_grasps()
-        self._plan: Optional[Dict[str, Any]] = None
+        #: what else stands there and must not be touched: in a scene the other things
+        self.obstacles = _core.MultiSuperquadric([])
+        self.plan: Optional[Dict[str, Any]] = None  #: the file of the last plan_grasps()
 
     @classmethod
     def load(cls, path: PathLike) -> "Model":
@@ -140,12 +142,14 @@ class Model:
         around = self.cloud if cloud is None else np.asarray(cloud)
         words = words_of(dict(options, gripper=os.fspath(gripper), count=count))
         with in_python_words():
-            plan = json.loads(_core.plan_grasps(self._file, around, words))
-        self._plan = plan
+            plan = json.loads(_core.plan_grasps(self._file, around, self.obstacles, words))
+        self.plan = plan
         self.grasps = [Grasp.from_json(grasp) for grasp in plan["grasps"]]
         return self.grasps
 
-    def _sensor(self) -> Optional[Array]:
+    @property
+    def sensor(self) -> Optional[Array]:
+        """The camera's place [m], where it is known or was found."""
         place = self.report.get("sensor")
         return None if place is None else np.array(place)
 
@@ -154,25 +158,16 @@ class Model:
                title: str = "") -> npt.NDArray[np.uint8]:
         """A picture, height x width x 3 bytes, also without a display. view: front, side,
         top, iso or camera."""
-        try:
-            from . import _render
-        except ModuleNotFoundError as error:
-            raise Error("this pcl_sq was built without pictures; build it with "
-                        "PCL_SQ_BUILD_VISUALIZATION=ON.") from error
-        upwards = self.report.get("up") if up is None else up
-        try:
-            return _render.render(self.to_json(-1), self.cloud, self.colors, view,
-                                  None if upwards is None else np.asarray(upwards, float),
-                                  self._sensor(), width, height, opacity, title)
-        except RuntimeError as error:
-            raise Error(str(error)) from None
+        return render_json(self.to_json(-1), self.cloud, self.colors, view,
+                           self.report.get("up") if up is None else up, self.sensor, width,
+                           height, opacity, title)
 
     def to_html(self, title: str = "pcl_sq") -> str:
         """A page to turn in a browser, with the cloud and the grasps that were planned."""
         file = _core.ModelFile.from_json(self.to_json(-1))
-        if self.grasps and self._plan is not None:
-            file.extra_json = json.dumps(dict(self.extra, gripper=self._plan["gripper"],
-                                              grasps=self._plan["grasps"]))
+        if self.grasps and self.plan is not None:
+            file.extra_json = json.dumps(dict(self.extra, gripper=self.plan["gripper"],
+                                              grasps=self.plan["grasps"]))
         return _core.html(file, self.cloud, self.colors, title)
 
     def show(self, title: str = "pcl_sq", height: int = 500) -> "View":
@@ -182,17 +177,8 @@ class Model:
     def export(self, path: PathLike, *, density: float = 500.0, mesh_prefix: str = "") -> None:
         """Writes .urdf, .sdf, MoveIt's .scene or .glb; URDF and SDF with their meshes beside
         them, named mesh_prefix + name. density: of a body without hollows [kg/m^3]."""
-        folder, base = os.path.split(os.fspath(path))
-        stem, ending = os.path.splitext(base)
-        name = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in stem)
-        if ending.lower() not in (".urdf", ".sdf", ".scene", ".glb"):
-            raise OptionError("export writes .urdf, .sdf, .scene or .glb, not '%s'." % ending)
-        files = _core.robot_export(self._file, ending.lower(), name or "object", density,
-                                   mesh_prefix)
-        if not files:
-            raise Error("the model has no parts, so '%s' is not written." % os.fspath(path))
-        for number, (file, contents) in enumerate(files):
-            _core.write_file(os.path.join(folder, base if number == 0 else file), contents)
+        write_export(path, (".urdf", ".sdf", ".scene", ".glb"), lambda ending, name:
+                     _core.robot_export(self._file, ending, name, density, mesh_prefix))
 
     def __repr__(self) -> str:
         sure = "" if self.confidence is None else ", confidence %.0f %%" % (
@@ -225,6 +211,39 @@ class View:
                                          encoding="utf-8") as file:
             file.write(self.html)
         webbrowser.open("file://" + file.name)
+
+
+def write_export(path: PathLike, endings: Sequence[str],
+                 files_of: Callable[[str, str], List[Tuple[str, bytes]]]) -> None:
+    """Writes what files_of(ending, name) gives: the file that is asked for, and meshes."""
+    folder, base = os.path.split(os.fspath(path))
+    stem, ending = os.path.splitext(base)
+    name = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in stem)
+    if ending.lower() not in endings:
+        raise OptionError("export writes %s or %s here, not '%s'." % (
+            ", ".join(endings[:-1]), endings[-1], ending))
+    files = files_of(ending.lower(), name or "object")
+    if not files:
+        raise Error("the model has no parts, so '%s' is not written." % os.fspath(path))
+    for number, (file, contents) in enumerate(files):
+        _core.write_file(os.path.join(folder, base if number == 0 else file), contents)
+
+
+def render_json(text: str, cloud: Optional[Array], colors: Optional[npt.NDArray[np.uint8]],
+                view: str, up: Optional[npt.ArrayLike], sensor: Optional[Array], width: int,
+                height: int, opacity: float, title: str) -> npt.NDArray[np.uint8]:
+    """A picture of a model file's text."""
+    try:
+        from . import _render
+    except ModuleNotFoundError as error:
+        raise Error("this pcl_sq was built without pictures; build it with "
+                    "PCL_SQ_BUILD_VISUALIZATION=ON.") from error
+    try:
+        return _render.render(text, cloud, colors, view,
+                              None if up is None else np.asarray(up, float), sensor, width,
+                              height, opacity, title)
+    except RuntimeError as error:
+        raise Error(str(error)) from None
 
 
 def _unpickled(text: str, cloud: Any, colors: Any, indices: Any) -> Model:

@@ -71,6 +71,7 @@ class Grasp:
     scores: Dict[str, float]  #: each in [0, 1]; "total" ranks
     epsilon: float  #: Ferrari and Canny's measure
     raw: Dict[str, Any] = field(repr=False)  #: as it stands in the file of pcl_sq_grasp
+    thing: Optional[int] = None  #: number of the thing in its scene, from 1 on
 
     @property
     def approach(self) -> npt.NDArray[np.float64]:

@@ -142,6 +142,22 @@ void addSuperquadric(py::module_& module) {
       .def("__repr__", [](const S& s) { return "<" + textOf(s) + ">"; });
 }
 
+py::object nearestParts(const MultiSuperquadric& model, const py::object& array) {
+  if (model.empty())
+    throw std::invalid_argument("a union without parts has no nearest one");
+  const PointArray points(array);
+  std::vector<std::int64_t> parts(std::size_t(points.size()));
+  {
+    const py::gil_scoped_release unlocked;
+    const Eigen::Matrix3Xd columns = points.columns();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Eigen::Vector3d p = columns.col(Eigen::Index(i));
+      parts[i] = p.allFinite() ? std::int64_t(model.nearestPart(p)) : -1;
+    }
+  }
+  return valuesLike(points, std::move(parts));
+}
+
 void addUnion(py::module_& module) {
   using M = MultiSuperquadric;
   py::class_<M>(module, "MultiSuperquadric", "A union of superquadrics.")
@@ -166,20 +182,11 @@ void addUnion(py::module_& module) {
            &containsOf<M>,
            py::arg("points"),
            "Whether points lie in a part.")
-      .def(
-          "nearest_part",
-          [](const M& m, const py::object& points) {
-            if (m.empty())
-              throw std::invalid_argument("a union without parts has no nearest one");
-            return eachPoint(points,
-                             [&](const Eigen::Vector3d& p) {
-                               return double(m.nearestPart(p));
-                             })
-                .attr("__array__")()
-                .attr("astype")("int64");
-          },
-          py::arg("points"),
-          "Index of the part whose surface is nearest.")
+      .def("nearest_part",
+           &nearestParts,
+           py::arg("points"),
+           "Index of the part whose surface is nearest; -1 of a point that is not "
+           "finite.")
       .def(
           "mesh",
           [](const M& m, int resolution) {

@@ -9,5 +9,7 @@ namespace pcl_sq::python {
 void addBodies(pybind11::module_& module);
 /** \brief Models: estimation, files, grasps. */
 void addEstimation(pybind11::module_& module);
+/** \brief Scenes: estimation, files, pages. */
+void addScenes(pybind11::module_& module);
 
 } // namespace pcl_sq::python

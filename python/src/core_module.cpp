@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = PCL_SQ_VERSION;
   pcl_sq::python::addBodies(module);
   pcl_sq::python::addEstimation(module);
+  pcl_sq::python::addScenes(module);
 }

@@ -9,8 +9,10 @@
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/sides.h"
-#include <limits>
+
 #include <pybind11/operators.h>
+
+#include <limits>
 #include <sstream>
 
 namespace pcl_sq::python {
@@ -101,14 +103,14 @@ distanceOf(const Body& body, const py::object& array, const std::string& method)
   return valuesLike(points, std::move(least));
 }
 
-Superquadric makeSuperquadric(const Eigen::Vector3d& semi_axes,
-                              const std::array<double, 2>& epsilon,
-                              const Eigen::Vector3d& center,
-                              const Eigen::Matrix3d& rotation,
-                              const std::array<double, 2>& taper,
-                              double rim,
-                              double wall,
-                              const std::array<double, 2>& bend) {
+inline Superquadric makeSuperquadric(const Eigen::Vector3d& semi_axes,
+                                     const std::array<double, 2>& epsilon,
+                                     const Eigen::Vector3d& center,
+                                     const Eigen::Matrix3d& rotation,
+                                     const std::array<double, 2>& taper,
+                                     double rim,
+                                     double wall,
+                                     const std::array<double, 2>& bend) {
   Superquadric s;
   s.semi_axes = semi_axes;
   s.epsilon1 = epsilon[0];

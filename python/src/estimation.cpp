@@ -3,9 +3,10 @@
 #include "arrays.h"
 #include "bodies.h"
 #include "errors.h"
-#include "input/shape.h"
 #include "model/grasp_output.h"
 #include "options/model_options.h"
+#include "point_clouds.h"
+#include "words.h"
 
 #include "command_line/value_checks.h"
 #include "pcl_sq/file_io.h"
@@ -17,34 +18,6 @@ namespace pcl_sq::python {
 namespace {
 
 using Words = std::vector<std::string>;
-
-/** \brief The points as a file would hold them. */
-app::Shape shapeOf(const PointArray& points, const std::optional<py::array>& colors) {
-  app::Shape shape;
-  const auto count = static_cast<std::size_t>(points.size());
-  shape.points.resize(count);
-  points.visit([&](const auto& columns) {
-    for (std::size_t i = 0; i < count; ++i)
-      shape.points[i] = columns.col(Eigen::Index(i)).template cast<double>();
-  });
-  if (points.shape().size() == 2) {
-    shape.height = static_cast<std::uint32_t>(points.shape()[0]);
-    shape.width = static_cast<std::uint32_t>(points.shape()[1]);
-  }
-  if (colors)
-    shape.colors = colorsOf(*colors, points.size());
-  return shape;
-}
-
-/** \brief The cloud of an array. \throw app::Failure with a whole sentence */
-app::LoadedCloud cloudOf(app::Shape shape, const app::CloudOptions& options) {
-  try {
-    return app::makeCloud(std::move(shape), options);
-  } catch (const app::Failure& failure) {
-    throw app::Failure("the points make no cloud: " + std::string(failure.what()) +
-                       ".");
-  }
-}
 
 CellMask cellsOf(const py::array& mask) {
   if (mask.ndim() != 2)
@@ -64,18 +37,17 @@ py::tuple estimate(const py::array& array,
                    const std::string& frame,
                    const Words& words) {
   app::Shape shape = shapeOf(PointArray(array), colors);
-  app::ModelOptions options;
+  CellMask cells;
   if (mask)
-    options.estimation.view.mask = cellsOf(*mask);
+    cells = cellsOf(*mask);
   const app::ModelResult result = guarded([&] {
-    app::parseWords(
-        "pcl_sq_fit",
-        [&](CLI::App& cli) {
-          app::addCloudOptions(cli, options.cloud);
-          app::addModelOptions(cli, options);
-          app::addCoverageOptions(cli, options);
-        },
-        words);
+    auto options = readWords<app::ModelOptions>(
+        "pcl_sq_fit", words, [](CLI::App& cli, app::ModelOptions& read) {
+          app::addCloudOptions(cli, read.cloud);
+          app::addModelOptions(cli, read);
+          app::addCoverageOptions(cli, read);
+        });
+    options.estimation.view.mask = std::move(cells);
     if (mask && (options.remove_plane || !options.roi.empty() || !options.box.empty()))
       throw app::UsageError("mask says already which pixels are the object: leave out "
                             "roi, box and remove_plane.");
@@ -93,15 +65,17 @@ py::tuple estimate(const py::array& array,
   return py::make_tuple(result.file, ownedArray(std::move(indices), {count}));
 }
 
-/** \brief Grasps as the JSON that pcl_sq_grasp writes. */
+/** \brief Grasps as the JSON that pcl_sq_grasp writes. \param[in] obstacles what else
+ * stands there */
 std::string planGrasps(const ModelFile& file,
                        const std::optional<py::array>& cloud,
+                       const MultiSuperquadric& obstacles,
                        const Words& words) {
   std::optional<app::Shape> shape;
   if (cloud)
     shape = shapeOf(PointArray(*cloud), std::nullopt);
   return guarded([&] {
-    app::GraspOptions options;
+    app::GraspOptions options; // a gripper's file may change from call to call
     app::parseWords(
         "pcl_sq_grasp",
         [&](CLI::App& cli) {
@@ -118,6 +92,7 @@ std::string planGrasps(const ModelFile& file,
     GraspScene scene = app::makeScene(options, file, input ? &*input : nullptr);
     if (input)
       scene.cloud = app::columnsOf(*input);
+    scene.obstacles = obstacles;
     double milliseconds = 0.0;
     const GraspPlan plan = app::planGrasps(file.model, scene, options, milliseconds);
     if (!plan.ok())
@@ -131,22 +106,11 @@ std::string html(const ModelFile& file,
                  const std::optional<py::array>& cloud,
                  const std::optional<py::array>& colors,
                  const std::string& title) {
-  Eigen::Matrix3Xf points(3, 0);
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  std::vector<std::uint32_t> packed;
-  if (cloud) {
-    const PointArray array(*cloud);
-    const Eigen::Matrix3Xd columns = array.columns();
-    if (!file.model.empty()) // floats keep their digits near the model
-      offset = file.model.parts.front().center.array().round().matrix();
-    points = (columns.colwise() - offset).cast<float>();
-    if (colors)
-      packed = colorsOf(*colors, array.size());
-  }
+  const PageCloud seen(cloud, colors, file.model);
   HtmlViewOptions options;
   options.title = title;
   const py::gil_scoped_release unlocked;
-  return htmlView(file, points, offset, packed, options);
+  return htmlView(file, seen.points, seen.offset, seen.colors, options);
 }
 
 /** \brief (name, bytes) of each file of a format. */
@@ -186,7 +150,9 @@ void addEstimation(py::module_& module) {
       .def_readonly("rms_distance", &ModelFile::rms_distance)
       .def_readonly("distortion", &ModelFile::distortion)
       .def_readwrite("extra_json", &ModelFile::extra_json)
-      .def("to_json", &toJson, py::arg("indent") = 2)
+      .def("to_json",
+           py::overload_cast<const ModelFile&, int>(&toJson),
+           py::arg("indent") = 2)
       .def_static("of_union",
                   [](const MultiSuperquadric& model) {
                     ModelFile file;

@@ -2,6 +2,9 @@
 // Stereo pairs and depth images; loads OpenCV.
 #include "arrays.h"
 #include "errors.h"
+#include "model/scene_model.h"
+#include "point_clouds.h"
+#include "stereo/stereo_cloud.h"
 #include "stereo/stereo_model.h"
 
 #include <opencv2/core.hpp>
@@ -65,6 +68,22 @@ py::array cloudArray(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, bool colors
   return result;
 }
 
+/** \brief An image that is given; its name stands in messages. */
+void take(const std::optional<py::array>& array,
+          const char* name,
+          cv::Mat& image,
+          std::string& path) {
+  if (!array)
+    return;
+  image = imageOf(*array, name);
+  path = name;
+}
+
+py::object colorsLike(const StereoView& seen) {
+  return seen.stereo.left.empty() ? py::object(py::none())
+                                  : py::object(cloudArray(*seen.stereo.cloud, true));
+}
+
 py::tuple estimate(const std::optional<py::array>& left,
                    const std::optional<py::array>& right,
                    const std::optional<py::array>& depth,
@@ -73,16 +92,6 @@ py::tuple estimate(const std::optional<py::array>& left,
                    const Words& words) {
   app::FrontOptions front;
   app::ModelOptions model;
-  // the names stand in messages
-  const auto take = [](const std::optional<py::array>& array,
-                       const char* name,
-                       cv::Mat& image,
-                       std::string& path) {
-    if (!array)
-      return;
-    image = imageOf(*array, name);
-    path = name;
-  };
   std::string mask_name, left_name, right_name, depth_name;
   take(left, depth ? "color" : "left", front.left_image, left_name);
   take(right, "right", front.right_image, right_name);
@@ -112,15 +121,59 @@ py::tuple estimate(const std::optional<py::array>& left,
     seen = app::runFront(front, model.roi, pipeline);
     return app::makeStereoModel(front, seen, model);
   });
-  const auto& cloud = *seen.stereo.cloud;
-  const bool colors = !seen.stereo.left.empty();
   return py::make_tuple(
       toJson(made.result.file),
-      cloudArray(cloud, false),
-      colors ? py::object(cloudArray(cloud, true)) : py::object(py::none()),
+      cloudArray(*seen.stereo.cloud, false),
+      colorsLike(seen),
       std::vector<std::int64_t>(made.result.report.object_indices.begin(),
                                 made.result.report.object_indices.end()),
       seen.notes);
+}
+
+/** \brief All things in a pair or a depth image, as pcl_sq_scene finds them. */
+py::tuple estimateScene(const std::optional<py::array>& left,
+                        const std::optional<py::array>& right,
+                        const std::optional<py::array>& depth,
+                        const std::optional<py::array>& labels,
+                        const Words& calibration,
+                        const Words& words) {
+  app::FrontOptions front;
+  app::ModelOptions model;
+  app::SceneChoices choices;
+  std::string left_name, right_name, depth_name;
+  take(left, depth ? "color" : "left", front.left_image, left_name);
+  take(right, "right", front.right_image, right_name);
+  take(depth, "depth", front.depth_image, depth_name);
+  if (labels)
+    choices.labels = labelsOf(*labels);
+  StereoView seen;
+  app::SceneResult result = guarded([&] {
+    app::parseWords(
+        "pcl_sq_scene",
+        [&](CLI::App& cli) {
+          app::addPairOptions(cli, front);
+          app::addSceneOptions(cli, model, choices);
+        },
+        words);
+    front.left = left_name;
+    front.right = right_name;
+    front.depth = depth_name;
+    front.calib = calibration;
+    front.intrinsics = model.intrinsics;
+    app::checkPairOptions(front);
+    app::checkModelOptions(model);
+    seen = app::readSceneViews(front, model);
+    return app::makeSceneFile(
+        app::toLoadedCloud(*seen.stereo.cloud, nullptr), "", model, choices, 0.0);
+  });
+  result.file.notes.insert(
+      result.file.notes.begin(), seen.notes.begin(), seen.notes.end());
+  LabelImage numbers = app::numberedPixels(result);
+  return py::make_tuple(
+      toJson(result.file),
+      cloudArray(*seen.stereo.cloud, false),
+      colorsLike(seen),
+      ownedArray(std::move(numbers.values), {numbers.height, numbers.width}));
 }
 
 } // namespace
@@ -130,4 +183,5 @@ py::tuple estimate(const std::optional<py::array>& left,
 PYBIND11_MODULE(_stereo, module) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   module.def("estimate", &pcl_sq::python::estimate);
+  module.def("estimate_scene", &pcl_sq::python::estimateScene);
 }

@@ -57,11 +57,11 @@ struct Buffer {
   }
 };
 
-Json material(std::size_t part, bool hollow) {
-  const Color color = partColor(part);
+Json material(const detail::PartLabel& label, bool hollow) {
+  const Color& color = label.color;
   // glTF's colours are linear
   const auto linear = [](std::uint8_t c) { return std::pow(double(c) / 255.0, 2.2); };
-  return {{"name", "part " + std::to_string(part + 1)},
+  return {{"name", label.name},
           {"doubleSided", hollow},
           {"pbrMetallicRoughness",
            {{"baseColorFactor", {linear(color.r), linear(color.g), linear(color.b), 1}},
@@ -77,10 +77,9 @@ void appendChunk(std::string& glb, std::string bytes, const char* kind, char fil
   glb += bytes;
 }
 
-} // namespace
-
-std::vector<TextFile> glbFiles(const ModelFile& file,
-                               const RobotExportOptions& options) {
+std::vector<TextFile> glbOf(const ModelFile& file,
+                            const std::vector<detail::PartLabel>& labels,
+                            const RobotExportOptions& options) {
   if (file.model.empty() || !options.isValid())
     return {};
   Buffer buffer;
@@ -102,8 +101,8 @@ std::vector<TextFile> glbFiles(const ModelFile& file,
                                            {{"componentType", UNSIGNED_INT},
                                             {"count", corners.size()},
                                             {"type", "SCALAR"}});
-    materials.push_back(material(i, part.isHollow()));
-    const std::string name = "part " + std::to_string(i + 1);
+    materials.push_back(material(labels[i], part.isHollow()));
+    const std::string& name = labels[i].name;
     meshes.push_back({{"name", name},
                       {"primitives",
                        {{{"attributes", {{"POSITION", places}, {"NORMAL", normals}}},
@@ -142,6 +141,18 @@ std::vector<TextFile> glbFiles(const ModelFile& file,
   std::string glb = "glTF";
   glb.append(reinterpret_cast<const char*>(head), sizeof head);
   return {{options.name + ".glb", glb + chunks}};
+}
+
+} // namespace
+
+std::vector<TextFile> glbFiles(const ModelFile& file,
+                               const RobotExportOptions& options) {
+  return glbOf(file, detail::labelsOf(file.model), options);
+}
+
+std::vector<TextFile> glbFiles(const SceneFile& scene,
+                               const RobotExportOptions& options) {
+  return glbOf(detail::asOneModel(scene), detail::labelsOf(scene), options);
 }
 
 } // namespace pcl_sq

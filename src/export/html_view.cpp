@@ -60,7 +60,9 @@ struct Grid {
 };
 
 /** \brief The part's surface about the middle of all. */
-Json partJson(const Superquadric& part, std::size_t i, const Eigen::Vector3d& middle) {
+Json partJson(const Superquadric& part,
+              const detail::PartLabel& label,
+              const Eigen::Vector3d& middle) {
   const detail::ShownSurface surface = detail::shownSurface(part);
   const Grid grid(part.boundingBox());
   std::vector<std::uint16_t> places, corners;
@@ -73,10 +75,10 @@ Json partJson(const Superquadric& part, std::size_t i, const Eigen::Vector3d& mi
   for (const auto& t : surface.mesh.triangles)
     for (const std::uint32_t corner : t)
       corners.push_back(static_cast<std::uint16_t>(corner));
-  const Color color = partColor(i);
+  const Color& color = label.color;
   Grid moved = grid;
   moved.low -= middle;
-  return {{"name", "part " + std::to_string(i + 1)},
+  return {{"name", label.name},
           {"color", {color.r, color.g, color.b}},
           {"sides", list(sidesOf(part))},
           {"epsilon", {part.epsilon1, part.epsilon2}},
@@ -168,13 +170,12 @@ Json graspsJson(const Json& extra, const Eigen::Vector3d& middle) {
   return grasps;
 }
 
-} // namespace
-
-std::string htmlView(const ModelFile& file,
-                     const CloudPoints& points,
-                     const Eigen::Vector3d& offset,
-                     const std::vector<std::uint32_t>& colors,
-                     const HtmlViewOptions& options) {
+std::string pageOf(const ModelFile& file,
+                   const std::vector<detail::PartLabel>& labels,
+                   const CloudPoints& points,
+                   const Eigen::Vector3d& offset,
+                   const std::vector<std::uint32_t>& colors,
+                   const HtmlViewOptions& options) {
   Eigen::AlignedBox3d box = file.model.boundingBox();
   if (file.model.empty())
     for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -189,7 +190,7 @@ std::string htmlView(const ModelFile& file,
   Json page = {{"title", options.title}, {"radius", 0.5 * diagonal}};
   page["parts"] = Json::array();
   for (std::size_t i = 0; i < file.model.size(); ++i)
-    page["parts"].push_back(partJson(file.model.parts[i], i, middle));
+    page["parts"].push_back(partJson(file.model.parts[i], labels[i], middle));
   page["cloud"] = cloudJson(points, offset, colors, near, options.max_points, middle);
   page["grasps"] = graspsJson(extra, middle);
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
@@ -232,6 +233,32 @@ std::string htmlView(const ModelFile& file,
   replace("@TITLE@", detail::escaped(options.title));
   replace("@DATA@", data);
   return html;
+}
+
+} // namespace
+
+std::string htmlView(const ModelFile& file,
+                     const CloudPoints& points,
+                     const Eigen::Vector3d& offset,
+                     const std::vector<std::uint32_t>& colors,
+                     const HtmlViewOptions& options) {
+  return pageOf(file, detail::labelsOf(file.model), points, offset, colors, options);
+}
+
+std::string htmlView(const SceneFile& scene,
+                     const CloudPoints& points,
+                     const Eigen::Vector3d& offset,
+                     const std::vector<std::uint32_t>& colors,
+                     const HtmlViewOptions& options) {
+  ModelFile file = detail::asOneModel(scene);
+  Json extra = Json::parse(scene.extra_json);
+  if (!scene.objects.empty()) { // one camera has seen all
+    const Json first = Json::parse(scene.objects.front().file.extra_json);
+    if (first.contains("report"))
+      extra["report"] = first["report"];
+  }
+  file.extra_json = extra.dump();
+  return pageOf(file, detail::labelsOf(scene), points, offset, colors, options);
 }
 
 } // namespace pcl_sq

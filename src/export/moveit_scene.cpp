@@ -52,23 +52,57 @@ std::string tableText(const std::array<double, 4>& table,
          "0.8 0.8 0.8 1\n0\n";
 }
 
-} // namespace
-
-std::vector<TextFile> moveitFiles(const ModelFile& file,
-                                  const RobotExportOptions& options) {
+/** \brief The object's lines. \param[out] origin its place \return empty without parts
+ */
+std::string objectText(const ModelFile& file,
+                       const RobotExportOptions& options,
+                       Eigen::Vector3d& origin) {
   detail::RobotObject object;
   if (!detail::robotObject(file, options, object))
-    return {};
-  std::string text = options.name + "\n* " + options.name + "\n" +
+    return "";
+  origin = object.origin;
+  std::string text = "* " + options.name + "\n" +
                      poseText(object.origin, Eigen::Matrix3d::Identity()) +
                      std::to_string(object.shapes.size()) + "\n";
   for (const CollisionShape& shape : object.shapes)
     text += shapeText(shape) + poseText(object.placeOf(shape), shape.rotation) +
             "0.35 0.55 0.8 1\n";
-  text += "0\n"; // no subframes
+  return text + "0\n"; // no subframes
+}
+
+} // namespace
+
+std::vector<TextFile> moveitFiles(const ModelFile& file,
+                                  const RobotExportOptions& options) {
+  Eigen::Vector3d origin;
+  std::string text = objectText(file, options, origin);
+  if (text.empty())
+    return {};
   if (file.table)
-    text += tableText(*file.table, object.origin, options.name + "_table");
-  return {{options.name + ".scene", text + ".\n"}};
+    text += tableText(*file.table, origin, options.name + "_table");
+  return {{options.name + ".scene", options.name + "\n" + text + ".\n"}};
+}
+
+std::vector<TextFile> moveitFiles(const SceneFile& scene,
+                                  const RobotExportOptions& options) {
+  std::string text;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    RobotExportOptions own = options;
+    own.name += "_" + std::to_string(k + 1);
+    Eigen::Vector3d origin;
+    const std::string thing = objectText(scene.objects[k].file, own, origin);
+    if (thing.empty())
+      return {};
+    text += thing;
+    sum += origin;
+  }
+  if (text.empty())
+    return {};
+  if (scene.table) // below the middle of all
+    text += tableText(
+        *scene.table, sum / double(scene.objects.size()), options.name + "_table");
+  return {{options.name + ".scene", options.name + "\n" + text + ".\n"}};
 }
 
 } // namespace pcl_sq

@@ -20,6 +20,34 @@ ShownSurface shownSurface(const Superquadric& part) {
   return shown;
 }
 
+std::vector<PartLabel> labelsOf(const MultiSuperquadric& model) {
+  std::vector<PartLabel> labels;
+  for (std::size_t i = 0; i < model.size(); ++i)
+    labels.push_back({"part " + std::to_string(i + 1), partColor(i)});
+  return labels;
+}
+
+std::vector<PartLabel> labelsOf(const SceneFile& scene) {
+  std::vector<PartLabel> labels;
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    const std::string thing = "thing " + std::to_string(k + 1);
+    const std::size_t parts = scene.objects[k].file.model.size();
+    for (std::size_t i = 0; i < parts; ++i)
+      labels.push_back({parts == 1 ? thing : thing + ", part " + std::to_string(i + 1),
+                        partColor(k)});
+  }
+  return labels;
+}
+
+ModelFile asOneModel(const SceneFile& scene) {
+  ModelFile file;
+  file.model = scene.all();
+  file.table = scene.table;
+  file.frame = scene.frame;
+  file.input_path = scene.input_path;
+  return file;
+}
+
 Eigen::Quaterniond toYUp(const Eigen::Vector3d& up) {
   return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY());
 }

@@ -36,6 +36,16 @@ std::vector<TextFile> robotFiles(const std::string& ending,
   return {};
 }
 
+std::vector<TextFile> robotFiles(const std::string& ending,
+                                 const SceneFile& scene,
+                                 const RobotExportOptions& options) {
+  if (ending == ".scene")
+    return moveitFiles(scene, options);
+  if (ending == ".glb")
+    return glbFiles(scene, options);
+  return {};
+}
+
 namespace detail {
 
 std::string meshName(const RobotExportOptions& options, std::size_t number) {

@@ -3,6 +3,7 @@
 
 #include "families/family_step.h"
 #include "geometry/bend.h"
+#include "tuning/view_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_EPSILON = 1.5; ///< the ends of a rod are not pinched
-constexpr double TRUST = 0.5;       ///< largest steps
-constexpr double SLIGHTEST = 1e-6;  ///< curvature; a bend of zero is none
+using namespace tuning::family;
+using namespace tuning::bent_problem;
 
 /** \brief Largest curvature of a body that does not fold or meet itself. */
 double mostBent(const Superquadric& s) {
@@ -55,15 +55,16 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
   }
   e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
   e.points_cost = e.cost;
+  const BentSupport slices(s);
   const auto row = [&](const Eigen::Vector3d& normal) {
     Eigen::Vector3d touching;
-    const BodyRow body = supportRow(s, normal, &touching);
+    const BodyRow body = supportRow(s, slices, normal, &touching);
     const Eigen::Vector3d n = s.rotation.transpose() * normal;
     return PlaneRow<N>{body.value,
                        rowOf(body.derivatives, n.dot(bendVelocity(s, touching)))};
   };
   const auto reach = [&](const Eigen::Vector3d& normal) {
-    return normal.dot(s.center) + s.support(normal);
+    return normal.dot(s.center) + slices.contact(s.rotation.transpose() * normal).reach;
   };
   addPlaneCost<N>(planes_, row, reach, e);
   return e;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the search for a bent rod begins.
 #include "families/bent_problem.h"
+#include "tuning/view_tuning.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -12,10 +13,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double CUT = 0.02;      ///< share of the points beyond an extent's end
-constexpr double ONE_SIDED = 1.6; ///< depth over half the width of a rod seen whole
-constexpr double START_EPSILON = 0.4;
-constexpr double MOST_BENT = 0.9; ///< of what is valid
+using namespace tuning::family;
+using namespace tuning::bent_starts;
 
 /** \brief Ends of sorted values without the outermost ones. */
 std::pair<double, double> endsOf(std::vector<double> values) {

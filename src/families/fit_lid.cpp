@@ -2,6 +2,7 @@
 // M29, cans and tins: a solid of revolution whose lid lies somewhat below its rim. The
 // rim makes the outline, the lid has the points.
 #include "families/families.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/shape_spaces.h"
 
 #include <algorithm>
@@ -11,12 +12,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Deepest lid, over the body's radius: deeper, the inside of the wall is seen
- * as well, and the body is an open vessel. */
-constexpr double DEEPEST = 0.25;
-constexpr double WITHIN = 0.85; ///< of the radius: on the lid, clear of the rim
-constexpr double LEAST = 0.05;  ///< of the points, that are a lid
-constexpr int ROUNDS = 3, ITERATIONS = 12;
+using namespace tuning::fit_lid;
 
 /** \brief Which points lie on the lid of an upright body, and how far below its top
  * most of them are. */

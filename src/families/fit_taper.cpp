@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tapered family: one of the others with its section growing along z.
 #include "families/families.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/plane_sums.h"
 #include "view_problem/shape_spaces.h"
 
@@ -14,13 +15,8 @@ namespace {
 /** \brief Least gain over a taper's parameters that is worth a fit: half of what its
  * prior demands, for one step need not tell all. */
 constexpr double WORTH_A_FIT = 0.5 * TAPER;
-/** \brief Cost per observation from which on no family is near the body, and a taper is
- * looked for from the search's own starts. */
-constexpr double MISFIT = 1.3;
-constexpr double WIDE = 0.03;   ///< sigma of that search, in the points' deviation
-constexpr std::size_t KEPT = 2; ///< starts of it that are refined
-constexpr int ITERATIONS = 20;
-constexpr int ROUGH_ITERATIONS = 10; ///< of that search: it but ranks its starts
+using namespace tuning::family;
+using namespace tuning::fit_taper;
 
 /** \brief Where a taper is tried from. */
 struct TaperStart {
@@ -81,7 +77,6 @@ public:
     const SquareSums<13> sums = squares.evaluate(start.from.model);
     const int all = static_cast<int>(start.basis.cols());
     const auto promised = [&](int columns) {
-      constexpr double DAMPING = 1e-3;
       const auto used = start.basis.leftCols(columns);
       Matrix13 jtj = Matrix13::Zero();
       Vector13 jtr = Vector13::Zero(), step = Vector13::Zero();

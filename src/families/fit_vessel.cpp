@@ -2,6 +2,7 @@
 // The family of open vessels: bowls, cups, pots, plates.
 #include "families/families.h"
 #include "families/vessel_problem.h"
+#include "tuning/view_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,25 +11,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
-constexpr double OUTLIER = 0.01;
-/** \brief Least share of a whole cloud's points on either side of a vessel's wall. */
-constexpr double BOTH_SIDES = 0.15;
-/** \brief A wall is told from noise by so many sigmas. */
-constexpr double RESOLVED = 3.0;
-/** \brief Things are no vessels: how far they are off, in the points' deviation; and
- * the share of the points within so many of those that a vessel with a handle explains.
- */
-constexpr double MODEL_ERROR = 0.01, STANDS_OFF = 4.0, EXPLAINED = 0.75;
-constexpr double MIN_SIGMA = 1e-3; ///< of points without noise, in their deviation
-/** \brief Share of the points that a solid hides, from which on they are no outliers.
- */
-constexpr double SEEN_BEHIND = 0.02;
-constexpr double BEHIND = 4.0; ///< sigmas along the ray before a point is behind
-constexpr double WIDE = 0.03;  ///< sigma of the search, in the points' deviation
-constexpr int SEARCH_ITERATIONS = 12, ITERATIONS = 30;
-constexpr std::size_t ROUGH = 6; ///< starts that are fitted, of all
-constexpr std::size_t KEPT = 2;  ///< of those that are refined
+using namespace tuning::shared;
+using namespace tuning::fit_vessel;
+using namespace tuning::family;
 
 struct Vessel {
   Superquadric model;

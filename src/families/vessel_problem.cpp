@@ -2,6 +2,7 @@
 #include "families/vessel_problem.h"
 
 #include "families/family_step.h"
+#include "tuning/view_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,19 +11,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_EPSILON = 1.5; ///< a vessel's wall is not pinched
-constexpr double MIN_RIM = -0.9, MAX_RIM = 0.97;
-constexpr double MAX_TAPER = 0.9;
-constexpr double TRUST = 0.5, RIM_TRUST = 0.3; ///< largest steps
-/** \brief Of the wall, over the rim's radius and the depth: a body with a floor as
- * thick as it is high is a solid in disguise. */
-constexpr double MOST_WALL = 0.3;
-/** \brief Logarithm of the wall's thickness over the radius, and its deviation: pots,
- * bowls, mugs and glasses have 0.04 to 0.12. It decides where one side is seen. */
-constexpr double LOG_WALL = -2.7, LOG_WALL_SIGMA = 0.5;
-/** \brief Density of outlines that are not the vessel's, a handle's for instance, over
- * the Gaussian's peak, as for the points. */
-constexpr double OUTLIER = 0.01;
+using namespace tuning::family;
+using namespace tuning::vessel_problem;
+using namespace tuning::shared;
 
 /** \brief The nearest place of a polyline. */
 struct Foot {
@@ -38,14 +29,13 @@ void takeNearest(const std::array<ProfileVertex, COUNT>& line,
                  Foot& foot) {
   double least = foot.distance * foot.distance;
   for (std::size_t i = 0; i + 1 < COUNT; ++i) {
-    const Eigen::Vector2d side = line[i + 1].at - line[i].at, to = p - line[i].at;
-    const double length = side.squaredNorm();
-    const double share =
-        length > 0.0 ? std::clamp(to.dot(side) / length, 0.0, 1.0) : 0.0;
-    const double square = (to - share * side).squaredNorm();
+    const ProfileVertex& v = line[i];
+    const Eigen::Vector2d to = p - v.at;
+    const double share = std::clamp(to.dot(v.side) * v.inverse_square, 0.0, 1.0);
+    const double square = (to - share * v.side).squaredNorm();
     if (square < least) {
       least = square;
-      foot.from = &line[i];
+      foot.from = &v;
       foot.share = share;
     }
   }
@@ -123,7 +113,7 @@ void VesselProblem::addPoints(const Superquadric& s,
     if (foot.distance > 1e-9)
       n /= foot.distance;
     else {
-      const Eigen::Vector2d side = foot.from[1].at - foot.from[0].at;
+      const Eigen::Vector2d& side = foot.from->side;
       n = Eigen::Vector2d(side.y(), -side.x()).normalized();
     }
     const Eigen::Vector3d normal(rho > 0.0 ? n.x() * p.x() / rho : n.x(),

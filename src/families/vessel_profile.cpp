@@ -8,81 +8,108 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief The profile's places alone. */
-struct Places {
-  std::array<Eigen::Vector2d, VesselProfile::OUTER + 2> outside;
-  std::array<Eigen::Vector2d, VesselProfile::INNER + 2> inside;
+using Slopes = Eigen::Matrix<double, 1, 6>; ///< for ln a, ln a3, e1, k, rim, ln wall
+enum Parameter { LN_A, LN_A3, E1, TAPER, RIM, LN_WALL };
+
+/** \brief Of a sine, what rounding leaves: at the equator a height moves without
+ * bounds. */
+constexpr double NEAR_EQUATOR = 1e-16;
+constexpr double NEAR_POLE = 1e-12; ///< of a cosine
+
+/** \brief An angle of the meridian and how it moves with the parameters. */
+struct Latitude {
+  double eta = 0.0;
+  Slopes d = Slopes::Zero();
 };
 
-double latitude(double height, double epsilon) {
-  return std::copysign(
-      std::asin(std::pow(std::min(std::abs(height), 1.0), 1.0 / epsilon)), height);
+/** \brief That of a height over a3, sin(eta) = height^(1 / e1). \param[in] by how the
+ * height moves */
+Latitude latitudeAt(double height, const Slopes& by, double epsilon) {
+  const double h = std::clamp(std::abs(height), 1e-12, 1.0);
+  const double sine = std::pow(h, 1.0 / epsilon);
+  const double cosine = std::sqrt(std::max(1.0 - sine * sine, NEAR_POLE));
+  Latitude l;
+  l.eta = std::copysign(std::asin(sine), height);
+  l.d = sine / (epsilon * h * cosine) * by;
+  // the logarithm is negative: with e1 the angle grows
+  l.d[E1] += std::copysign(-sine * std::log(h) / (epsilon * epsilon * cosine), height);
+  return l;
 }
 
-Places placesOf(const Superquadric& s) {
-  Places p;
-  const double a = s.semi_axes.x(), a3 = s.semi_axes.z();
-  const auto at = [&](double eta, double inset) {
-    const double sine = std::sin(eta);
-    const double h = std::copysign(std::pow(std::abs(sine), s.epsilon1), sine);
-    const double cosine = std::cos(eta); // at the pole not quite zero
-    const double g = cosine > 1e-12 ? std::pow(cosine, s.epsilon1) : 0.0;
-    return Eigen::Vector2d(std::max(a * (1.0 + s.kx * h) * g - inset, 0.0), a3 * h);
-  };
-  const double top = latitude(s.rim, s.epsilon1);
-  for (int i = 0; i <= VesselProfile::OUTER; ++i)
-    p.outside[std::size_t(i)] =
-        at(-M_PI_2 + (top + M_PI_2) * i / VesselProfile::OUTER, 0.0);
-  const double floor = latitude(std::min(s.wall / a3 - 1.0, s.rim), s.epsilon1);
-  for (int i = 0; i <= VesselProfile::INNER; ++i)
-    p.inside[std::size_t(i + 1)] =
-        at(floor + (top - floor) * i / VesselProfile::INNER, s.wall);
-  p.inside[0] = {0.0, p.inside[1].y()};
-  p.outside[VesselProfile::OUTER + 1] = p.inside[VesselProfile::INNER + 1];
-  return p;
-}
-
-/** \brief A vessel with one of its shape's parameters moved. */
-Superquadric nudged(Superquadric s, int i, double step) {
-  switch (i) {
-  case 0:
-    s.semi_axes.head<2>() *= std::exp(step);
-    break;
-  case 1:
-    s.semi_axes.z() *= std::exp(step);
-    break;
-  case 2:
-    s.epsilon1 += step;
-    break;
-  case 3:
-    s.kx += step;
-    s.ky = s.kx;
-    break;
-  case 4:
-    s.rim += step;
-    break;
-  default:
-    s.wall *= std::exp(step);
+/** \brief Where the meridian is at a latitude, nearer to the axis by an inset. */
+ProfileVertex placeAt(const Superquadric& s, const Latitude& l, double inset) {
+  const double a = s.semi_axes.x(), a3 = s.semi_axes.z(), e = s.epsilon1;
+  const double sine = std::sin(l.eta), cosine = std::max(std::cos(l.eta), 0.0);
+  const double log_sine = std::log(std::max(std::abs(sine), 1e-300));
+  const double h = std::copysign(std::exp(e * log_sine), sine);
+  double g = 0.0, g_by_e = 0.0, g_by_eta = 0.0;
+  if (cosine > NEAR_POLE) {
+    const double log_cosine = std::log(cosine);
+    g = std::exp(e * log_cosine);
+    g_by_e = g * log_cosine;
+    g_by_eta = -e * g * sine / cosine;
   }
-  return s;
+  const double h_by_e = h * log_sine;
+  const double h_by_eta =
+      e * h * cosine / std::copysign(std::max(std::abs(sine), NEAR_EQUATOR), sine);
+  const double growth = 1.0 + s.kx * h;
+  ProfileVertex v;
+  v.at = {a * growth * g - inset, a3 * h};
+  v.d.row(0) = a * (s.kx * h_by_eta * g + growth * g_by_eta) * l.d;
+  v.d(0, LN_A) += a * growth * g;
+  v.d(0, E1) += a * (s.kx * h_by_e * g + growth * g_by_e);
+  v.d(0, TAPER) += a * h * g;
+  v.d(0, LN_WALL) -= inset;
+  v.d.row(1) = a3 * h_by_eta * l.d;
+  v.d(1, LN_A3) += a3 * h;
+  v.d(1, E1) += a3 * h_by_e;
+  if (!(v.at.x() > 0.0)) { // on the axis
+    v.at.x() = 0.0;
+    v.d.row(0).setZero();
+  }
+  return v;
+}
+
+/** \brief A latitude between two. */
+Latitude between(const Latitude& low, const Latitude& high, double share) {
+  return {(1.0 - share) * low.eta + share * high.eta,
+          (1.0 - share) * low.d + share * high.d};
+}
+
+template <std::size_t COUNT>
+void measure(std::array<ProfileVertex, COUNT>& line) {
+  for (std::size_t i = 0; i + 1 < COUNT; ++i) {
+    line[i].side = line[i + 1].at - line[i].at;
+    const double square = line[i].side.squaredNorm();
+    line[i].inverse_square = square > 0.0 ? 1.0 / square : 0.0;
+  }
 }
 
 } // namespace
 
 VesselProfile::VesselProfile(const Superquadric& s) {
-  constexpr double STEP = 1e-5;
-  const Places here = placesOf(s);
-  for (std::size_t i = 0; i < outside.size(); ++i)
-    outside[i].at = here.outside[i];
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    inside[i].at = here.inside[i];
-  for (int k = 0; k < 6; ++k) {
-    const Places there = placesOf(nudged(s, k, STEP));
-    for (std::size_t i = 0; i < outside.size(); ++i)
-      outside[i].d.col(k) = (there.outside[i] - here.outside[i]) / STEP;
-    for (std::size_t i = 0; i < inside.size(); ++i)
-      inside[i].d.col(k) = (there.inside[i] - here.inside[i]) / STEP;
+  const Latitude bottom{-M_PI_2, Slopes::Zero()};
+  Slopes by = Slopes::Zero();
+  by[RIM] = 1.0;
+  const Latitude top = latitudeAt(s.rim, by, s.epsilon1);
+  const double thick = s.wall / s.semi_axes.z();
+  if (thick - 1.0 < s.rim) {
+    by[RIM] = 0.0;
+    by[LN_WALL] = thick;
+    by[LN_A3] = -thick;
   }
+  const Latitude floor = latitudeAt(std::min(thick - 1.0, s.rim), by, s.epsilon1);
+  for (int i = 0; i <= OUTER; ++i)
+    outside[std::size_t(i)] = placeAt(s, between(bottom, top, double(i) / OUTER), 0.0);
+  for (int i = 0; i <= INNER; ++i)
+    inside[std::size_t(i + 1)] =
+        placeAt(s, between(floor, top, double(i) / INNER), s.wall);
+  inside[0] = inside[1];
+  inside[0].at.x() = 0.0;
+  inside[0].d.row(0).setZero();
+  outside[OUTER + 1] = inside[INNER + 1];
+  measure(outside);
+  measure(inside);
 }
 
 } // namespace pcl_sq::detail

@@ -13,6 +13,8 @@ namespace pcl_sq::detail {
 struct ProfileVertex {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
+  Eigen::Vector2d side = Eigen::Vector2d::Zero(); ///< to the next vertex
+  double inverse_square = 0.0;                    ///< of the side's length; of none 0
 };
 
 /** \brief The meridian of a vessel as two polylines: what may be seen from outside (the

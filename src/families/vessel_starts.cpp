@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the search for an open vessel begins.
 #include "families/vessel_problem.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/shape_spaces.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double CUT = 0.02; ///< share of the points beyond an extent's end
+using namespace tuning::family;
 
 /** \brief Profiles of household vessels: cup, pot or plate, bowl. */
 struct Kind {

@@ -148,95 +148,116 @@ const char* invalidBend(const Superquadric& s) {
   return nullptr;
 }
 
-BentContact
-bentContact(const Superquadric& s, const Eigen::Vector3d& n, double low, double high) {
-  constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
-  constexpr int SLICES = 24, REFINEMENTS = 20;
-  constexpr double GOLDEN = 0.6180339887498949;
-  const double e2 = std::min(s.epsilon2, MAX_SECTION), p = 2.0 / (2.0 - e2);
-  const bool round = e2 == 1.0; // all that fits make
-  const Eigen::Vector3d& a = s.semi_axes;
-  const Eigen::Vector3d d = towards(s);
+namespace {
+
+constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
+
+} // namespace
+
+struct BentSupport::Touching {
+  Eigen::Vector2d n, size; ///< direction in the section, its semi-axes
+  double u, v, reach;
+};
+
+BentSupport::BentSupport(const Superquadric& s, double low, double high)
+    : s_(s), towards_(towards(s)), begin_(placeAt(s, low)), end_(placeAt(s, high)),
+      step_((end_ - begin_) / SLICES) {
+  for (int i = 0; i <= SLICES; ++i)
+    slices_[std::size_t(i)] = at(begin_ + i * step_);
+}
+
+BentSupport::Slice BentSupport::at(double t) const {
+  const Latitude l = latitude(s_, t);
+  const Arc arc = arcAt(s_, s_.semi_axes.z() * l.height);
+  return {l.sine,
+          l.cosine,
+          l.height,
+          l.scale,
+          arc.sine,
+          arc.cosine,
+          arc.inwards,
+          arc.along};
+}
+
+BentSupport::Touching BentSupport::touching(const Slice& c,
+                                            const Eigen::Vector3d& n) const {
+  const double e2 = std::min(s_.epsilon2, MAX_SECTION), p = 2.0 / (2.0 - e2);
+  const Eigen::Vector3d &a = s_.semi_axes, &d = towards_;
   const double inwards = d.dot(n), across = d.x() * n.y() - d.y() * n.x();
-  struct Slice {
-    Latitude at;
-    Eigen::Vector2d n, size; ///< direction in the section, its semi-axes
-    double u, v, norm, reach;
-  };
-  const auto slice = [&](double t) {
-    Slice c;
-    c.at = latitude(s, t);
-    const Arc arc = arcAt(s, a.z() * c.at.height);
-    const double in_section = arc.cosine * inwards - arc.sine * n.z();
-    c.n = {in_section * d.x() - across * d.y(), in_section * d.y() + across * d.x()};
-    c.size = {a.x() * (1.0 + s.kx * c.at.height), a.y() * (1.0 + s.ky * c.at.height)};
-    c.u = std::abs(c.n.x()) * c.size.x();
-    c.v = std::abs(c.n.y()) * c.size.y();
-    if (round)
-      c.norm = std::sqrt(c.u * c.u + c.v * c.v);
-    else {
-      const double larger = std::max(c.u, c.v), smaller = std::min(c.u, c.v);
-      c.norm = larger > 0.0
-                   ? larger * std::pow(1.0 + std::pow(smaller / larger, p), 1.0 / p)
-                   : 0.0;
-    }
-    c.reach = arc.inwards * inwards + arc.along * n.z() + c.at.scale * c.norm;
-    return c;
-  };
-  const double begin = placeAt(s, low), end = placeAt(s, high);
-  const double step = (end - begin) / SLICES;
-  double best = begin, most = slice(begin).reach;
+  const double in_section = c.arc_cosine * inwards - c.arc_sine * n.z();
+  Touching t;
+  t.n = {in_section * d.x() - across * d.y(), in_section * d.y() + across * d.x()};
+  t.size = {a.x() * (1.0 + s_.kx * c.height), a.y() * (1.0 + s_.ky * c.height)};
+  t.u = std::abs(t.n.x()) * t.size.x();
+  t.v = std::abs(t.n.y()) * t.size.y();
+  double norm = 0.0;
+  if (e2 == 1.0) // round: all that fits make
+    norm = std::sqrt(t.u * t.u + t.v * t.v);
+  else if (const double larger = std::max(t.u, t.v); larger > 0.0)
+    norm = larger * std::pow(1.0 + std::pow(std::min(t.u, t.v) / larger, p), 1.0 / p);
+  t.reach = c.inwards * inwards + c.along * n.z() + c.scale * norm;
+  return t;
+}
+
+BentContact BentSupport::contact(const Eigen::Vector3d& n) const {
+  constexpr int REFINEMENTS = 14;
+  constexpr double GOLDEN = 0.6180339887498949;
+  int highest = 0;
+  double most = touching(slices_[0], n).reach;
   for (int i = 1; i <= SLICES; ++i) {
-    const double reach = slice(begin + i * step).reach;
+    const double reach = touching(slices_[std::size_t(i)], n).reach;
     if (reach > most) {
       most = reach;
-      best = begin + i * step;
+      highest = i;
     }
   }
-  double left_end = std::max(best - step, begin),
-         right_end = std::min(best + step, end);
+  const auto reach = [&](double t) { return touching(at(t), n).reach; };
+  const double best = begin_ + highest * step_;
+  double left_end = std::max(best - step_, begin_),
+         right_end = std::min(best + step_, end_);
   double left = right_end - GOLDEN * (right_end - left_end),
          right = left_end + GOLDEN * (right_end - left_end);
-  double at_left = slice(left).reach, at_right = slice(right).reach;
+  double at_left = reach(left), at_right = reach(right);
   for (int i = 0; i < REFINEMENTS; ++i)
     if (at_left > at_right) {
       right_end = right;
       right = left;
       at_right = at_left;
-      at_left = slice(left = right_end - GOLDEN * (right_end - left_end)).reach;
+      at_left = reach(left = right_end - GOLDEN * (right_end - left_end));
     } else {
       left_end = left;
       left = right;
       at_left = at_right;
-      at_right = slice(right = left_end + GOLDEN * (right_end - left_end)).reach;
+      at_right = reach(right = left_end + GOLDEN * (right_end - left_end));
     }
-  const double refined = 0.5 * (left_end + right_end);
-  if (slice(refined).reach > most)
-    best = refined;
-  const Slice c = slice(best);
+  Slice c = at(0.5 * (left_end + right_end));
+  Touching t = touching(c, n);
+  if (!(t.reach > most)) {
+    c = slices_[std::size_t(highest)];
+    t = touching(c, n);
+  }
+  const double e2 = std::min(s_.epsilon2, MAX_SECTION), p = 2.0 / (2.0 - e2);
   BentContact contact;
-  contact.reach = c.reach;
-  contact.sine = c.at.sine;
-  contact.cosine = c.at.cosine;
-  const double larger = std::max(c.u, c.v);
+  contact.reach = t.reach;
+  contact.sine = c.sine;
+  contact.cosine = c.cosine;
+  const double larger = std::max(t.u, t.v);
   contact.shares = {0.5, 0.5};
   if (larger > 0.0) {
-    const double x = std::pow(c.u / larger, p), y = std::pow(c.v / larger, p);
+    const double x = std::pow(t.u / larger, p), y = std::pow(t.v / larger, p);
     contact.shares = Eigen::Vector2d(x, y) / (x + y);
   }
   const auto side = [&](int k) {
-    return std::copysign(std::pow(contact.shares[k], 0.5 * e2), c.n[k]) * c.at.scale *
-           c.size[k];
+    return std::copysign(std::pow(contact.shares[k], 0.5 * e2), t.n[k]) * c.scale *
+           t.size[k];
   };
-  contact.unbent = {side(0), side(1), a.z() * c.at.height};
-  contact.at = bent(s, contact.unbent);
+  contact.unbent = {side(0), side(1), s_.semi_axes.z() * c.height};
+  contact.at = bent(s_, contact.unbent);
   return contact;
 }
 
-int convexPieces(const Superquadric& s) {
-  constexpr double SAGITTA_ANGLE = 0.35; // rad to either side: a sagitta of 6 % of R
-  return std::max(1,
-                  int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / SAGITTA_ANGLE)));
+int convexPieces(const Superquadric& s, double half_angle) {
+  return std::max(1, int(std::ceil(std::abs(s.bend) * s.semi_axes.z() / half_angle)));
 }
 
 BentMoments bentMoments(const Superquadric& s) {

@@ -4,6 +4,8 @@
 
 #include "geometry/open_body.h"
 
+#include <array>
+
 namespace pcl_sq::detail {
 
 /** \brief Where bending takes the section at a height: its middle lies on the circle,
@@ -45,15 +47,39 @@ struct BentContact {
   Eigen::Vector2d shares; ///< cos^2 and sin^2 of its angle in the section
 };
 
-/** \brief The support function's contact, of a body cut into slices; \a direction in
- * the own frame. \param[in] low, high heights over a3 between which it is looked for */
-BentContact bentContact(const Superquadric& s,
-                        const Eigen::Vector3d& direction,
-                        double low = -1.0,
-                        double high = 1.0);
+/** \brief The support function of a bent body, or of a stretch of one, cut into slices;
+ * those that each search begins with are made once for all directions. */
+class BentSupport {
+public:
+  /** \param[in] s is kept by reference
+   * \param[in] low, high heights over a3 between which contacts are looked for */
+  explicit BentSupport(const Superquadric& s, double low = -1.0, double high = 1.0);
 
-/** \brief Into how many stretches a bent body is cut to be as good as convex. */
-int convexPieces(const Superquadric& s);
+  /** \brief The contact in a direction in the own frame. */
+  BentContact contact(const Eigen::Vector3d& direction) const;
+
+private:
+  static constexpr int SLICES = 24;
+  /** \brief Where a slice is: what does not depend on the direction. */
+  struct Slice {
+    double sine, cosine;                         ///< of its latitude, the sine signed
+    double height, scale;                        ///< over a3, of its section
+    double arc_sine, arc_cosine, inwards, along; ///< of the bent axis there
+  };
+  struct Touching;
+  Slice at(double t) const;
+  Touching touching(const Slice& at, const Eigen::Vector3d& direction) const;
+
+  const Superquadric& s_;
+  Eigen::Vector3d towards_; ///< the circle's centre
+  double begin_, end_, step_;
+  std::array<Slice, SLICES + 1> slices_;
+};
+
+/** \brief Into how many stretches a bent body is cut to be as good as convex.
+ * \param[in] half_angle largest part of the circle to either side of a stretch's middle
+ * [rad] */
+int convexPieces(const Superquadric& s, double half_angle = 0.35);
 
 /** \brief Integrals of 1, p and p p^T over a bent body in its own frame (Pappus). */
 struct BentMoments {

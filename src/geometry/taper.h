@@ -8,6 +8,8 @@
 
 namespace pcl_sq::detail {
 
+class BentSupport; // bend.h
+
 using Vector13 = Eigen::Matrix<double, 13, 1>;
 
 /** \brief Growth of the section at a height z of the own frame (M2), never below that
@@ -84,6 +86,12 @@ BodyRow footPointRow(const Superquadric& s,
  * that touches. \param[out] unbent that point before bending, of a bent body; optional
  */
 BodyRow supportRow(const Superquadric& s,
+                   const Eigen::Vector3d& normal,
+                   Eigen::Vector3d* unbent = nullptr);
+
+/** \brief The same of a bent body whose slices are made already. */
+BodyRow supportRow(const Superquadric& s,
+                   const BentSupport& slices,
                    const Eigen::Vector3d& normal,
                    Eigen::Vector3d* unbent = nullptr);
 

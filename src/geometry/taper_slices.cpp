@@ -121,11 +121,14 @@ double logOrZero(double x) {
   return x > 0.0 ? std::log(x) : 0.0;
 }
 
-/** \brief The row of a bent body, n in its own frame, without the centre's part. */
-BodyRow bentSupportRow(const Superquadric& s,
-                       const Eigen::Vector3d& n,
-                       Eigen::Vector3d* unbent) {
-  const BentContact c = bentContact(s, n);
+} // namespace
+
+BodyRow supportRow(const Superquadric& s,
+                   const BentSupport& slices,
+                   const Eigen::Vector3d& normal,
+                   Eigen::Vector3d* unbent) {
+  const Eigen::Vector3d n = s.rotation.transpose() * normal;
+  const BentContact c = slices.contact(n);
   if (unbent)
     *unbent = c.unbent;
   const BentFrame frame = bentFrame(s, c.unbent.z());
@@ -138,7 +141,7 @@ BodyRow bentSupportRow(const Superquadric& s,
   const double fx = 1.0 + s.kx * height, fy = 1.0 + s.ky * height;
   const double growth = along.x() * s.kx / fx + along.y() * s.ky / fy;
   BodyRow row;
-  row.value = c.reach;
+  row.value = normal.dot(s.center) + c.reach;
   row.derivatives.head<3>() = n;
   row.derivatives.segment<3>(3) = c.at.cross(n);
   row.derivatives.segment<3>(6) = along;
@@ -150,8 +153,6 @@ BodyRow bentSupportRow(const Superquadric& s,
   row.derivatives[12] = along.y() * height / fy;
   return row;
 }
-
-} // namespace
 
 BodyRow supportRow(const Superquadric& s,
                    const Eigen::Vector3d& normal,
@@ -167,11 +168,8 @@ BodyRow supportRow(const Superquadric& s,
     row.derivatives[12] = n.y() * p.y() * height;
     return row;
   }
-  if (s.isBent()) {
-    row = bentSupportRow(s, n, unbent);
-    row.value += normal.dot(s.center);
-    return row;
-  }
+  if (s.isBent())
+    return supportRow(s, BentSupport(s), normal, unbent);
   const Slices slices(s, n);
   const Slices::Slice c = slices.farthest();
   const Eigen::Vector3d touching = slices.touching(c);
@@ -194,13 +192,14 @@ BodyRow supportRow(const Superquadric& s,
 }
 
 double slicedSupport(const Superquadric& s, const Eigen::Vector3d& local) {
-  return s.isBent() ? bentContact(s, local).reach : Slices(s, local).farthest().reach;
+  return s.isBent() ? BentSupport(s).contact(local).reach
+                    : Slices(s, local).farthest().reach;
 }
 
 Eigen::Vector3d slicedSupportPoint(const Superquadric& s,
                                    const Eigen::Vector3d& local) {
   if (s.isBent())
-    return bentContact(s, local).at;
+    return BentSupport(s).contact(local).at;
   const Slices slices(s, local);
   return slices.touching(slices.farthest());
 }

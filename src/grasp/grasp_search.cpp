@@ -115,7 +115,8 @@ std::vector<OrientedBox> GraspSearch::handAt(const Grasp& grasp) const {
   for (std::size_t c = 0; c < 2; ++c)
     own.contacts[c].position =
         (c == 0 ? 0.5 : -0.5) * grasp.width * Eigen::Vector3d::UnitY();
-  return collision_.boxes(own, opening(grasp, 1.0));
+  return collision_.boxes(
+      own, opening(grasp, *std::min_element(std::begin(OPENINGS), std::end(OPENINGS))));
 }
 
 double GraspSearch::bestTableClearance(const Grasp& grasp,
@@ -135,22 +136,22 @@ double GraspSearch::bestTableClearance(const Grasp& grasp,
 }
 
 Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
-  std::vector<OrientedBox> boxes = collision_.boxes(grasp, opening(grasp, 1.0));
-  table = collision_.tableClearance(boxes);
-  if (table < options_.clearance)
-    return Obstruction::TABLE;
-  const Obstruction palm = collision_.test(boxes.back(), options_.margin);
-  if (palm != Obstruction::NONE)
-    return palm;
   Obstruction found = Obstruction::NONE;
+  bool palm_is_free = false; // for one opening as for the other
   for (const double share : OPENINGS) {
-    if (found != Obstruction::NONE)
-      boxes = collision_.boxes(grasp, opening(grasp, share));
-    boxes.pop_back();
-    found = Obstruction::NONE;
-    for (const OrientedBox& finger : boxes)
+    const std::vector<OrientedBox> boxes =
+        collision_.boxes(grasp, opening(grasp, share));
+    table = collision_.tableClearance(boxes);
+    found = table < options_.clearance ? Obstruction::TABLE : Obstruction::NONE;
+    if (found == Obstruction::NONE && !palm_is_free) {
+      found = collision_.test(boxes.back(), options_.margin);
+      if (found != Obstruction::NONE)
+        return found;
+      palm_is_free = true;
+    }
+    for (std::size_t i = 0; i + 1 < boxes.size(); ++i)
       if (found == Obstruction::NONE)
-        found = collision_.test(finger, 0.0);
+        found = collision_.test(boxes[i], 0.0);
     if (found == Obstruction::NONE) {
       grasp.open_width = grasp.width + 2.0 * opening(grasp, share);
       break;

@@ -6,6 +6,7 @@
 #include "observe/sheets.h"
 #include "sensor/camera_pose.h"
 #include "sensor/noise.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +20,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int MIN_POINTS = 12;
-constexpr std::size_t NEIGHBOUR = 6;
-constexpr double LONELY = 2.5; ///< times the median distance to that neighbour
-constexpr std::size_t MAX_POINTS = 3000; ///< looked at and fitted
+using namespace tuning::observe_bare;
 
 /** \brief Brings the points into an order that depends on nothing but themselves and in
  * which any of them are spread over the object: subsets are then the same whatever

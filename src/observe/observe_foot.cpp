@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where an object ends at its foot: points just above a table cannot be told from it.
 #include "observe/observe_parts.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +10,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t LOWEST = 20; ///< each how many-th of the object's pixels is low
-constexpr int STEPS = 8;           ///< from a low point down to the table
-constexpr int BENEATH = 8;         ///< pixels beneath a low point that are looked at
-constexpr double SEEN = 0.5;       ///< of the low points, below which the table is seen
+using namespace tuning::observe_foot;
 
 } // namespace
 

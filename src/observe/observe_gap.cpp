@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The gap in an object, such as between a cup and its handle.
 #include "observe/observe_parts.h"
+#include "tuning/observe_tuning.h"
 
 namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int SMALLEST = 24;             ///< gap [px]: fewer are errors of the outline
-constexpr double SMALLEST_SHARE = 0.003; ///< of the object's pixels
-constexpr double SEEN_THROUGH = 0.3;     ///< of the gap's known depths lie behind
+using namespace tuning::observe_gap;
 
 /** \brief Whether the background shows through: matching gives much of a narrow gap the
  * depth of what is around it. */

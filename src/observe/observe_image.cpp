@@ -3,6 +3,7 @@
 #include "observe/observe_parts.h"
 #include "sensor/noise.h"
 #include "table/table_search.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 
@@ -10,12 +11,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Pixels beside a mask's outline that are left out, and beside that of depths
- * that no window has fattened. */
-constexpr int RIM_OF_MASK = 1;
-constexpr int RIM_OF_DEPTH = 3;   ///< the same for the fattened rim of stereo matching
-constexpr double FATTENING = 1.5; ///< expected dilation of an outline from depth [px]
-constexpr int FREE_MARGIN = 2;    ///< pixels beside the outline that may be either's
+using namespace tuning::observe_image;
 
 /** \brief Sets pixels that most of their neighbours set, within the bounds. */
 void fillHoles(CellMask& mask, const CellRect& box) {

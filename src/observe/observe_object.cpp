@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observe/observe_parts.h"
 #include "sensor/camera_pose.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -56,10 +57,7 @@ const char* toString(OutlineSource source) {
 
 namespace {
 
-/** \brief How well the edge of what hides an object, or of the image, says where it
- * ends, over its size: most of it is seen, or nobody would have pointed at it. */
-constexpr double HIDDEN_SIGMA = 0.05;
-constexpr Eigen::Index FEET = 200; ///< points that are dropped to the table
+using namespace tuning::observe_object;
 
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on: a model ends about there unless evidence says
@@ -148,7 +146,6 @@ void noteOtherViewpoint(const CloudPoints& points,
                         const PinholeCamera& camera,
                         const ViewOptions& view,
                         std::vector<std::string>& notes) {
-  constexpr double SAME = 0.1;
   if (!view.viewpoint)
     return;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

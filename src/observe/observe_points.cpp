@@ -2,6 +2,7 @@
 // The points of an object in an image that are fitted.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
+#include "tuning/observe_tuning.h"
 #include "util/order_statistic.h"
 
 #include <algorithm>
@@ -12,10 +13,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MAX_POINTS =
-    1500;                      ///< fitted; neighbours share their errors anyway
-constexpr int REACH = 3;       ///< pixels around one with whose depths it is compared
-constexpr std::size_t FEW = 5; ///< depths that say nothing
+using namespace tuning::observe_points;
 
 bool deepInside(const CellMask& mask, int x, int y, int rim) {
   for (int d = 1; d <= rim; ++d)

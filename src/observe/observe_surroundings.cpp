@@ -2,6 +2,8 @@
 // What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
+#include "sensor/noise.h"
+#include "tuning/observe_tuning.h"
 #include "util/order_statistic.h"
 
 #include <algorithm>
@@ -12,10 +14,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int OCCLUDER_REACH = 6;                  ///< searched beyond the outline [px]
-constexpr std::size_t FEW_OWN = 5, FEW_OTHERS = 8; ///< depths that say nothing
-constexpr int BESIDE = 2;       ///< pixels between an outline and another thing's
-constexpr int FREE_SPACE = 500; ///< about so many around the object are looked at
+using namespace tuning::observe_surroundings;
 
 } // namespace
 
@@ -71,7 +70,10 @@ void findFreeSpace(Observation& o, const CellRect& box, int margin) {
   const double area =
       double(box.width - 1 + 2 * reach) * double(box.height - 1 + 2 * reach);
   const int step = std::max(1, int(std::sqrt(area / FREE_SPACE)));
-  o.out.free_weight = std::min(1.0, std::pow(step / o.view.correlation, 2));
+  // of a mask its outline tells what is free, whatever neighbours' depths share
+  const double correlation =
+      has_mask ? std::min(o.view.correlation, OUTLINE_CORRELATION) : o.view.correlation;
+  o.out.free_weight = std::min(1.0, std::pow(step / correlation, 2));
   const auto beside = [&](int x, int y) {
     for (int dy = -margin; dy <= margin; ++dy)
       for (int dx = -margin; dx <= margin; ++dx)

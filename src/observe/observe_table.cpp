@@ -3,6 +3,7 @@
 // checked against its points.
 #include "observe/observe_parts.h"
 #include "table/table_search.h"
+#include "tuning/observe_tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -12,20 +13,11 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int PLANES = 6; ///< largest ones among which the table is
+using namespace tuning::observe_table;
 /** \brief A plane with a smaller share of what is left is found with as many trials as
  * make a miss unlikely: (1 - share^3)^n = 1 %. */
 constexpr PlaneDemand SMALLER = {0.1, 4600};
-constexpr double RIM = 3.0; ///< pixels beside the outline that are left out, at most
-/** \brief Least uprightness of a table's normal in the image. A wall that faces a level
- * camera has none, and a camera that looks down makes it negative. */
-constexpr double UPRIGHT = 0.25;
-constexpr double FROM_ABOVE = 0.9; ///< of the normal's part along the optical axis
-constexpr double SEEN = 0.5;       ///< of what is around the foot, that is the plane
-constexpr double THROUGH = 0.15;   ///< of it, that lies behind the plane
 constexpr double PARAMETERS = 3.0; ///< of a plane: as many independent points fit any
-constexpr std::size_t FEWEST = 20; ///< points of a side of the foot that tell
-constexpr double NOISE = 0.008;    ///< of the depth: three sigma of unknown sensors
 
 /** \brief Where a plane is, as seen from the object. */
 enum class TableRelation { UNDER, ABOVE, FAR };
@@ -42,7 +34,6 @@ double quantile(std::vector<double> values, double share) {
  * beside the limb is left out, whose inner edge lies sqrt(2 r d) nearer to the camera;
  * and a fiftieth of the disc's area at its lower edge is r / 10 high. */
 double reachOf(const TableModel& table, const ObservedObject& observed) {
-  constexpr double FIFTIETH = 0.1;
   const PinholeCamera& camera = observed.camera;
   const Eigen::Vector3d ray =
       (observed.points.rowwise().mean() - camera.center).normalized();
@@ -54,13 +45,16 @@ double reachOf(const TableModel& table, const ObservedObject& observed) {
          3.0 * std::hypot(table.sigma, table.noise);
 }
 
-TableRelation
-relationTo(const TableModel& table, const ObservedObject& observed, double highest) {
-  const double tolerance = 5.0 * table.sigma + 0.1 * observed.extent;
+/** \param[in] lowest, highest where most of the object, and its lowest points, may be
+ */
+TableRelation relationTo(const TableModel& table,
+                         const ObservedObject& observed,
+                         double lowest,
+                         double highest) {
   std::vector<double> heights;
   for (Eigen::Index i = 0; i < observed.points.cols(); ++i)
     heights.push_back(table.height(observed.points.col(i)));
-  if (quantile(heights, 0.2) < -tolerance)
+  if (quantile(heights, 0.2) < lowest)
     return TableRelation::ABOVE;
   return quantile(heights, 0.02) > highest ? TableRelation::FAR : TableRelation::UNDER;
 }
@@ -110,45 +104,112 @@ bool mayBeLevel(const Observation& o, const TableModel& plane) {
   const Eigen::Vector3d normal = o.out.camera.rotation.transpose() * plane.normal;
   if (o.view.up)
     return plane.normal.dot(o.view.up->normalized()) > std::sqrt(0.5);
-  return -normal.y() > UPRIGHT || -normal.z() > FROM_ABOVE;
+  return -normal.y() > std::max(UPRIGHT, std::abs(normal.x())) ||
+         -normal.z() > FROM_ABOVE;
 }
 
-/** \brief How many of the points around the object's foot lie on a plane below it; none
- * where most are elsewhere, where the plane does not go on around the foot, or where it
- * is seen through. */
-std::size_t
+/** \brief An object's footprint on a plane: its points dropped to it, by direction. */
+class Footprint {
+public:
+  static constexpr std::size_t SECTORS = 16;
+
+  Footprint(const ObservedObject& out, const TableModel& plane)
+      : u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)) {
+    const Eigen::Vector3d middle = out.points.rowwise().mean();
+    centre = middle - plane.height(middle) * plane.normal;
+    for (Eigen::Index i = 0; i < out.points.cols(); ++i) {
+      const auto [sector, distance] = place(out.points.col(i));
+      radius_[sector] = std::max(radius_[sector], distance);
+    }
+  }
+  /** \brief Sector of a point of the plane, and how far it lies beyond the footprint.
+   */
+  std::pair<std::size_t, double> beyond(const Eigen::Vector3d& p) const {
+    const auto [sector, distance] = place(p);
+    return {sector, distance - radius_[sector]};
+  }
+
+  Eigen::Vector3d centre;
+
+private:
+  std::pair<std::size_t, double> place(const Eigen::Vector3d& p) const {
+    const double x = u_.dot(p - centre), y = v_.dot(p - centre);
+    const double turn = 0.5 + std::atan2(y, x) / (2.0 * M_PI);
+    return {std::min(SECTORS - 1, std::size_t(turn * SECTORS)), std::hypot(x, y)};
+  }
+  Eigen::Vector3d u_, v_;
+  std::array<double, SECTORS> radius_ = {};
+};
+
+/** \brief The points around the object's foot on a plane below it; none where the plane
+ * does not go on around the foot, or where it is seen through beside it. A table may
+ * end anywhere farther away, and other things may stand on it. */
+std::vector<Eigen::Vector3d>
 supportOf(const Observation& o, const Surroundings& around, const TableModel& plane) {
   const ObservedObject& out = o.out;
-  const Eigen::Vector3d middle = out.points.rowwise().mean();
-  const Eigen::Vector3d foot = middle - plane.height(middle) * plane.normal;
-  const Eigen::Vector2d seen_foot = out.camera.project(foot);
-  const double near = 2.0 * out.extent;
-  std::size_t on = 0, through = 0, before = 0;
+  const Footprint footprint(out, plane);
+  const Eigen::Vector2d seen_foot = out.camera.project(footprint.centre);
   std::array<std::size_t, 4> sides = {0, 0, 0, 0}; // left, right, above, below
+  struct Sector {
+    std::size_t on = 0, through = 0;
+  };
+  std::array<Sector, Footprint::SECTORS> beside;
+  std::vector<Eigen::Vector3d> on;
   for (const Beside& b : around.points) {
     const Eigen::Vector3d ray = out.camera.ray(b.pixel);
     const double towards = plane.normal.dot(ray);
-    const double there = -plane.height(out.camera.center) / towards;
-    if (!(towards < 0.0) || (out.camera.center + there * ray - foot).norm() > near)
+    if (!(towards < 0.0))
       continue;
+    const double there = -plane.height(out.camera.center) / towards;
+    const auto [sector, beyond] = footprint.beyond(out.camera.center + there * ray);
     const double height = plane.height(b.point);
-    if (std::abs(height) <= around.distance) {
-      ++on;
+    const bool is_on = std::abs(height) <= around.distance;
+    if (beyond > 2.0 * out.extent || (!is_on && height > 0.0))
+      continue;
+    if (is_on) {
+      on.push_back(b.point);
       const Eigen::Vector2d d = b.pixel - seen_foot;
       ++sides[std::abs(d.x()) > std::abs(d.y()) ? (d.x() < 0.0 ? 0 : 1)
                                                 : (d.y() < 0.0 ? 2 : 3)];
-    } else if (height < 0.0)
-      ++through;
-    else
-      ++before;
+    }
+    if (beyond < BESIDE * out.extent)
+      ++(is_on ? beside[sector].on : beside[sector].through);
   }
+  std::size_t carried = 0, open = 0;
+  for (const Sector& s : beside)
+    if (s.on + s.through >= FEWEST_OF_SECTOR)
+      ++(s.on > s.through ? carried : open);
   const auto told =
       std::count_if(sides.begin(), sides.end(), [](auto n) { return n >= FEWEST; });
   const Eigen::Vector3d normal = out.camera.rotation.transpose() * plane.normal;
   const bool from_above = -normal.y() <= UPRIGHT && !o.view.up;
-  if (told < (from_above ? 4 : 2) || double(through) > THROUGH * double(on + through))
-    return 0;
-  return double(on) > SEEN * double(on + through + before) ? on : 0;
+  if (told < (from_above ? 4 : 2))
+    return {};
+  if (double(carried) < CARRIED * double(carried + open))
+    return {};
+  return on;
+}
+
+/** \brief The plane of most of the points near one: what else lies near it, a step or
+ * a cloth, is left out.
+ * \param[in] noise of a point [m] */
+void settle(const std::vector<Eigen::Vector3d>& points,
+            double noise,
+            TableModel& plane) {
+  constexpr int ROUNDS = 5;
+  constexpr double SIGMAS = 2.5;
+  TableModel largest;
+  if (findPlane(points, noise, {}, largest))
+    plane = largest.normal.dot(plane.normal) < 0.0 ? flipped(largest) : largest;
+  for (int round = 0; round < ROUNDS; ++round) {
+    std::vector<double> off;
+    for (const Eigen::Vector3d& p : points)
+      off.push_back(std::abs(plane.height(p)));
+    TableModel next = plane;
+    if (!refitPlane(points, SIGMAS * 1.4826 * quantile(off, 0.5), next))
+      return;
+    plane = next.normal.dot(plane.normal) < 0.0 ? flipped(next) : next;
+  }
 }
 
 } // namespace
@@ -175,15 +236,21 @@ void findTable(Observation& o, const CellRect& box) {
     const double independent =
         double(rest.size() - left.size()) *
         std::min(1.0, std::pow(around.apart / o.view.correlation, 2));
-    plane.sigma = std::max(3.0 * plane.noise / std::sqrt(std::max(1.0, independent)),
-                           0.1 * plane.noise);
+    const auto sigmaOf = [&](const TableModel& of) {
+      return std::max(3.0 * of.noise / std::sqrt(std::max(1.0, independent)),
+                      0.1 * of.noise);
+    };
+    plane.sigma = sigmaOf(plane);
     rest.swap(left);
+    const double lowest = -std::hypot(plane.sigma, around.distance / 3.0);
     if (independent < PARAMETERS || !mayBeLevel(o, plane) ||
-        relationTo(plane, o.out, reachOf(plane, o.out)) != TableRelation::UNDER)
+        relationTo(plane, o.out, lowest, reachOf(plane, o.out)) != TableRelation::UNDER)
       continue;
-    const std::size_t support = supportOf(o, around, plane);
-    if (support > best) {
-      best = support;
+    const std::vector<Eigen::Vector3d> support = supportOf(o, around, plane);
+    if (support.size() > best) {
+      best = support.size();
+      settle(support, around.distance / 3.0, plane);
+      plane.sigma = sigmaOf(plane);
       o.out.table = plane;
     }
   }
@@ -195,7 +262,9 @@ void findTable(Observation& o, const CellRect& box) {
 void checkTable(ObservedObject& observed) {
   if (!observed.table || observed.points.cols() == 0)
     return;
-  const TableRelation relation = relationTo(*observed.table, observed, observed.extent);
+  const double lowest = -5.0 * observed.table->sigma - 0.1 * observed.extent;
+  const TableRelation relation =
+      relationTo(*observed.table, observed, lowest, observed.extent);
   if (relation == TableRelation::ABOVE)
     observed.notes.push_back(
         "the object lies below the table plane, which is left out; check the table and "

@@ -2,6 +2,7 @@
 #include "observe/point_spread.h"
 
 #include "sensor/local_quadric.h"
+#include "tuning/observe_tuning.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -12,18 +13,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr Eigen::Index PATCHES = 400, FEWEST = 100;
-constexpr std::size_t NEIGHBOURS = 12; ///< whose reach is the density's measure
-constexpr std::size_t PLANE = 24;      ///< neighbours that give the normal
-constexpr std::size_t AROUND_IT = 96;  ///< that tell on which side it bulges
-constexpr double GRAZING = 0.1;        ///< least cosine that counts: noise is thicker
-constexpr double FAR = 6.0;            ///< camera that is looked for, in half diagonals
-constexpr int DIRECTIONS = 200, AROUND = 24;
-constexpr double SPACING = 0.14; ///< half a step between directions [rad]
-/** \brief How much more uneven a place's image may be than another's: the scatter
- * of as many patches is known to 5 %, and this is four times the deviation of
- * two. */
-constexpr double MORE = 1.25;
+using namespace tuning::point_spread;
 
 /** \brief Mean distance to the median: a small face of a box counts as well, which the
  * median distance would not see. */

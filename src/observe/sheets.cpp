@@ -2,6 +2,7 @@
 #include "observe/sheets.h"
 
 #include "sensor/local_quadric.h"
+#include "tuning/observe_tuning.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -13,25 +14,10 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t NEIGHBOURS = 32, NEAREST = 8;
-/** \brief Of fitting a plane to the half of the points nearest to it. */
-constexpr int ROUNDS = 4;
+using namespace tuning::sheets;
 /** \brief Standard deviation over the root mean square of the half of normal values
  * that is nearest to zero. */
 constexpr double OF_HALF = 2.6477;
-constexpr double BEYOND = 4.0; ///< sigmas of another sheet from the own one
-constexpr std::size_t FEWEST = 5;
-constexpr double SLIVER = 0.3; ///< sine of two directions that span a plane
-constexpr double EVEN = 0.25;  ///< mean deviation of another sheet, over its distance
-constexpr double BESIDE = 0.5; ///< of its middle across the normal, over the radius
-/** \brief Share of the surface that is smooth at the least: legs and edges bend within
- * a neighbourhood. What that quantile of the scatters of NEIGHBOURS points of one noise
- * is to their middle. */
-constexpr double SMOOTH = 0.2, OF_SMOOTH = 0.89;
-constexpr Eigen::Index LOOKED_AT = 200;
-/** \brief Share of doubled sheets from which on the points are those of two sides: in
- * one view they are chance. */
-constexpr double TWO_SIDES = 0.15;
 
 /** \brief Heights of points over a plane, and the half of them that is nearest to it.
  */

@@ -4,6 +4,7 @@
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/triangle_mesh.h"
+#include "tuning/parts_tuning.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -35,9 +36,7 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
-/** \brief First-order distance over the reach, from which on a place outside is sure to
- * be beyond it: of a convex body it is never too large, of a tapered one hardly. */
-constexpr double FARTHER = 2.0;
+using namespace tuning::exposed_area;
 
 /** \brief Radius of a ball within a tapered body: that of the straight one, over what
  * straightening stretches, by the narrowest section and by the shear of the sides. */

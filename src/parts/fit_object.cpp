@@ -7,6 +7,7 @@
 #include "parts/split_view.h"
 #include "parts/union_score.h"
 #include "parts/whole_cloud.h"
+#include "tuning/parts_tuning.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
 #include "view_fit/search_view.h"
@@ -19,33 +20,7 @@ namespace {
 
 using namespace detail;
 
-constexpr double MIN_GAIN = 10.0;   ///< of the score, for one more part
-constexpr double SMALL_GAIN = 0.02; ///< of the observations: the model's own error
-/** \brief Share of a vessel's points off it that are no handle: more are another part,
- * such as a bottle's neck. */
-constexpr double MOST_UNEXPLAINED = 0.05;
-/** \brief Of the vessel's size, that its foot stands off its wall, over the sigmas that
- * points off a body are away. */
-constexpr double FOOT = 0.0125;
-/** \brief Share of a vessel's points that may be its handle's. */
-constexpr double MOST_OF_HANDLE = 0.15;
-/** \brief Share of a vessel's surface that has points: between a table's legs are none.
- */
-constexpr double MOSTLY = 0.8;
-constexpr double BACK_SLACK = 0.2;  ///< behind the object's back, over its size
-constexpr double BACK_SIGMA = 0.05; ///< of the object's back, over its size
-/** \brief Things are no superquadrics: their surface's distance to the best one, over
- * the object's size. */
-constexpr double MODEL_ERROR = 0.005;
-/** \brief What a depth image's neighbours share and their scatter does not show, over
- * the depth: locking to whole pixels, smoothing over the matched window. */
-constexpr double SENSOR_ERROR = 7e-4;
-/** \brief Parts that are looked for where the options leave it open. */
-constexpr int MOST_IN_VIEW = 6, MOST_ALL_ROUND = 16;
-constexpr Eigen::Index NOISE_SAMPLES = 200;
-/** \brief By how much measurements lie beside their pixels [px]: what a matching window
- * takes from its side nearer to the camera, a depth camera's lateral noise. */
-constexpr double SIDEWAYS = 0.5;
+using namespace tuning::fit_object;
 
 bool isBareView(const ObservedObject& observed) {
   return observed.hasCamera() && observed.pixels.cells.empty();
@@ -126,7 +101,10 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
 void finish(const PieceContext& context, std::vector<Piece>& pieces) {
   const std::size_t largest = largestOfRevolution(pieces);
   const auto again = [&](std::size_t k, const Superquadric* axis) {
-    if (!axis && !coversFreeSpace(pieces[k]))
+    // of a bent handle fitHandle() knows more than its points tell
+    const bool is_handle =
+        !pieces[k].stands && pieces[k].fit.chosen.shape == ShapeClass::BENT;
+    if (is_handle || (!axis && !coversFreeSpace(pieces[k])))
       return;
     Piece next = pieces[k];
     fitPiece(context, next, Effort::FINAL, axis);

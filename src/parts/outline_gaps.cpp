@@ -2,6 +2,7 @@
 #include "parts/outline_gaps.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "tuning/parts_tuning.h"
 #include "util/parallel_for.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,19 +14,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Largest cost of one contradiction, as for the points. */
-constexpr double MAX_COST = 9.2;
-/** \brief How far parts may miss the outline, over the object's size: what is no
- * superquadric cannot be followed closer. */
-constexpr double TOLERANCE = 0.03;
-/** \brief Of the grid of pixels that are looked at. Contradictions beyond the tolerance
- * are not a mask's errors of a pixel, alike along its border: nearly each counts. */
-constexpr int STEP = 2;
-/** \brief Independent observations per pixel of that grid where depth made the outline:
- * it errs alike within a matching window. */
-constexpr double OF_DEPTH = 0.08;
-constexpr int MARGIN = 2;     ///< beside the outline, where a pixel may be either's
-constexpr double INSET = 0.2; ///< of the first cut into the gap, over the gap's width
+using namespace tuning::shared;
+using namespace tuning::outline_gaps;
 
 /** \brief The gap's box along its principal axes. */
 struct GapBox {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/split_view.h"
 
+#include "tuning/parts_tuning.h"
 #include "util/parallel_for.h"
 
 #include <algorithm>
@@ -10,11 +11,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double GOOD_FIT = 1.6; ///< cost per observation of a part that needs no cut
-constexpr std::size_t TRIED = 4; ///< best cuts that are fitted in full
-/** \brief Score of quick fits from which on a cut is not worth full ones: over what it
- * is to beat, and the factor over the best cut's. */
-constexpr double QUICK_SLACK = 60.0, QUICK_FACTOR = 1.5;
+using namespace tuning::split_view;
+using namespace tuning::part;
 /** \brief How far the best cut is moved, over half the piece's size. */
 constexpr std::array<double, 4> SHIFTS = {-0.1, -0.05, 0.05, 0.1};
 

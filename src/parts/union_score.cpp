@@ -2,6 +2,7 @@
 #include "parts/union_score.h"
 
 #include "parts/exposed_area.h"
+#include "tuning/parts_tuning.h"
 #include "util/point_grid.h"
 #include "view_problem/plane_cost.h"
 
@@ -15,22 +16,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-/** \brief Density of outliers over the Gaussian's peak, as in the fits. */
-constexpr double OUTLIER = 0.01;
-/** \brief Distance over the noise from which on a point costs the same, to the last
- * digit. */
-constexpr double OUTLYING = 9.0;
-/** \brief Of a point that others are spread about evenly, to the nearest of them, over
- * their spacing: exp(-pi 2^2) is the chance of more. */
-constexpr double FARTHEST = 2.0;
-/** \brief Surfaces nearer to each other than so many times the noise are one. */
-constexpr double SIDE_BY_SIDE = 2.0;
-/** \brief A body may leave the box of the points by so much of the box's half diagonal
- * before its fit is repeated within the box, and where it then still does, it is no
- * part: points show all sides, and what is beyond them is empty. */
-constexpr double SLACK = 0.02, BEYOND = 0.05;
-constexpr double BOX_SIGMA = 0.005; ///< of the box's sides, over the same
+using namespace tuning::part;
+using namespace tuning::shared;
+using namespace tuning::union_score;
 
 } // namespace
 

@@ -2,6 +2,7 @@
 #include "parts/verdict.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "tuning/parts_tuning.h"
 #include "union/surface_statistics.h"
 
 #include <algorithm>
@@ -11,18 +12,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Pixels of the object that are looked at: a share of them is known to a
- * hundredth. */
-constexpr double SAMPLE = 2000.0;
-/** \brief How far things are off the best superquadrics, over half their size: even the
- * ball that fits a cube best lies within .08 of the cube's side. */
-constexpr double MODEL_ERROR = 0.1;
-/** \brief Median distance to a model that is none, over the points' size: it is .05 for
- * the ball that fits a cube best, and more for a cloud without a surface. */
-constexpr double MOST_OFF = 0.06;
-constexpr double SIGMAS = 3.0;       ///< farther points are not the surface's
-constexpr double LEAST_PIXELS = 0.8; ///< four to one for the model
-constexpr double EVEN = 0.5;         ///< as likely wrong as right
+using namespace tuning::verdict;
 
 bool covers(const MultiSuperquadric& model,
             const Eigen::Vector3d& eye,

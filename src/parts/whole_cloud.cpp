@@ -2,6 +2,7 @@
 #include "parts/whole_cloud.h"
 
 #include "parts/union_score.h"
+#include "tuning/parts_tuning.h"
 #include "util/cloud_graph.h"
 #include "util/parallel_for.h"
 
@@ -12,18 +13,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t KEPT = 3;  ///< ways to cut a part that are remembered
-constexpr std::size_t TRIED = 3; ///< best ways of all parts that are fitted in full
-constexpr int ROUNDS = 3;        ///< of assigning points and fitting again
-/** \brief Score by which a quick fit, to a sample of the points, may be worse than what
- * the full one is to beat. */
-constexpr double QUICK_SLACK = 60.0;
-/** \brief Steps that are taken although they do not pay: one cut of a handle with two
- * corners, or of a table with legs at its corners, helps little. */
-constexpr int PATIENCE = 2;
-constexpr double FEWEST_PARAMETERS = 6.0; ///< that another part brings along
-constexpr double OFF = 4.0; ///< noise that a point lies off a body it is not of
+using namespace tuning::part;
+using namespace tuning::whole_cloud;
 
 /** \brief Parts that may take another's place, quickly fitted. */
 struct Way {

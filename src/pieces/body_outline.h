@@ -46,6 +46,15 @@ public:
     });
   }
 
+  /** \brief Sine of the angle by which a ray, of unit length, lies beyond the plane
+   * that it is farthest beyond; not positive where it may hit. */
+  double sineBeyond(const Eigen::Vector3d& ray) const {
+    double sine = -1.0;
+    for (const Plane& plane : planes_)
+      sine = std::max(sine, plane.normal.dot(ray) - plane.least);
+    return sine;
+  }
+
 private:
   struct Plane {
     Eigen::Vector3d normal;

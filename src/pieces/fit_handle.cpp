@@ -4,6 +4,7 @@
 #include "pieces/free_space.h"
 #include "pieces/handle.h"
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MAX_COST = 9.2; ///< of a point, as an outlier
-constexpr double LARGER =
-    1.25;                      ///< a handle than the box of its points: one side is hid
-constexpr double STRAY = 0.05; ///< of a handle's points, at either end
-constexpr double STANDS_OFF = 4.0; ///< sigmas from its box
-/** \brief Twice the logarithm of the odds, about 400 to 1, that a handle is a bent rod
- * and no disc: fingers go through. */
-constexpr double ROD = 12.0;
+using namespace tuning::shared;
+using namespace tuning::fit_handle;
 
 /** \brief Mean cost of points, none more than an outlier's. */
 double
@@ -36,6 +31,14 @@ void choose(Piece& handle, const ShapeCandidate& c) {
   handle.fit.fit.model = c.model;
   handle.fit.fit.points = handle.points.size();
   handle.fit.fit.termination = Termination::COST_CHANGE_TOO_SMALL;
+}
+
+/** \brief The area that a handle covers, seen from the camera [m^2]; 0 without one. */
+double profileOf(const ObservedObject& o, const Piece& handle) {
+  if (!o.hasCamera() || handle.pixels.empty())
+    return 0.0;
+  const double pixel = pixelStep(o) * o.depth;
+  return double(handle.pixels.size()) * pixel * pixel / (o.camera.fx * o.camera.fy);
 }
 
 /** \brief The bent rod nearest to a handle's points. */
@@ -61,7 +64,9 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
   ShapeCandidate nothing_near; // so that a rod is looked for
   nothing_near.cost = 1e299;
   nothing_near.model = problem.frame().toUnit(around);
-  std::optional<ShapeCandidate> rod = fitBent(problem, problem.noise(), {nothing_near});
+  const double unit = problem.frame().scale;
+  std::optional<ShapeCandidate> rod = fitBent(
+      problem, problem.noise(), {nothing_near}, profileOf(o, handle) / (unit * unit));
   if (rod)
     rod->model = problem.frame().toCloud(rod->model);
   return rod;
@@ -71,7 +76,7 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
 bool isSlender(const Superquadric& s) {
   Eigen::Vector3d half = s.semi_axes;
   std::sort(half.data(), half.data() + 3);
-  return half[2] > 2.0 * half[1];
+  return half[2] > 2.0 * half[1] && half[1] < 2.0 * half[0];
 }
 
 /** \brief Makes a handle that is no rod, a disc around its points for instance, a bent

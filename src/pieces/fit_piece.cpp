@@ -3,6 +3,7 @@
 #include "families/families.h"
 #include "pieces/free_space.h"
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 #include "view_fit/search_view.h"
 
 #include <algorithm>
@@ -11,13 +12,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int QUICK_STARTS = 4;
-/** \brief Largest exponent of a part that a cut ends: composite things are made of
- * cans, boxes and balls. A pinched part follows errors of its points, and its hidden
- * side comes out too flat. */
-constexpr double PART_EPSILON = 1.0;
-constexpr int FREE_ROUNDS = 3;        ///< of holding the model off the free pixels
-constexpr double WORTH_A_ROUND = 6.0; ///< cost of covered free pixels
+using namespace tuning::fit_piece;
 
 /** \brief Heights above the table of points, of all but a few. */
 struct Heights {
@@ -94,13 +89,16 @@ void fitPiece(const PieceContext& context,
   evidence.limits.insert(
       evidence.limits.end(), context.limits.begin(), context.limits.end());
   const double price = std::log(1.0 + o.effective_points); // of a parameter
+  const auto against = [&](const Superquadric& body) {
+    return coveredFreeSpace(context, body).cost + missedPixels(context, piece, body);
+  };
   const auto assess = [&](ViewFit fit, double hinges) {
     Piece assessed;
     assessed.fit = std::move(fit);
     if (!assessed.fit.fit.ok())
       return assessed;
     assessed.covered = coveredFreeSpace(context, assessed.fit.fit.model).cost;
-    assessed.misfit = assessed.fit.chosen.cost - hinges + assessed.covered;
+    assessed.misfit = assessed.fit.chosen.cost - hinges;
     assessed.score =
         assessed.misfit - (assessed.fit.chosen.on_axis ? SHARED_AXIS : 0.0) +
         demandOf(assessed.fit.chosen.shape) + assessed.fit.chosen.parameters * price -
@@ -117,7 +115,7 @@ void fitPiece(const PieceContext& context,
     }
     return assessed;
   };
-  Piece best = assess(searchView(points, evidence, options), 0.0);
+  Piece best = assess(searchView(points, evidence, options, against), 0.0);
   const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
     if (!coversFreeSpace(best))
@@ -126,7 +124,7 @@ void fitPiece(const PieceContext& context,
     ViewEvidence more = evidence;
     more.limits.insert(more.limits.end(), covered.limits.begin(), covered.limits.end());
     options.start = best.fit.straight().model;
-    ViewFit next = searchView(points, more, options);
+    ViewFit next = searchView(points, more, options, against);
     const double hinges = hingeCost(covered.limits, next.fit.model);
     Piece assessed = assess(std::move(next), hinges);
     if (!(assessed.score < best.score))

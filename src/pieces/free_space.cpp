@@ -3,6 +3,9 @@
 
 #include "pcl_sq/line_intersection.h"
 #include "pieces/body_outline.h"
+#include "pieces/piece_outline.h"
+#include "sensor/noise.h"
+#include "tuning/parts_tuning.h"
 #include "view_problem/plane_cost.h"
 
 #include <algorithm>
@@ -11,12 +14,14 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief Largest cost of one contradiction: -2 ln of an outlier's density over the
- * Gaussian's peak, as for the points. */
-constexpr double MAX_COST = 9.2;
-/** \brief How far parts stick out where the object is hollow, over its size: what is no
- * superquadric cannot be followed closer. */
-constexpr double FREE_SIGMA = 0.03;
+using namespace tuning::shared;
+using namespace tuning::free_space;
+
+bool isWellInside(const CellMask& mask, const Eigen::Vector2d& pixel) {
+  const int x = int(pixel.x()), y = int(pixel.y());
+  return mask(x - MARGIN, y) && mask(x + MARGIN, y) && mask(x, y - MARGIN) &&
+         mask(x, y + MARGIN);
+}
 
 /** \brief A point of a ray well inside a body. \return false if the ray misses it */
 bool insideOnRay(const Superquadric& body,
@@ -41,8 +46,9 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
   Covered covered;
   // beyond the outline of a body that is not plain no costly search along the ray
-  const BodyOutline outline =
-      body.isPlain() ? BodyOutline() : BodyOutline(body, o.camera.center, 24);
+  const BodyOutline outline = body.isPlain()
+                                  ? BodyOutline()
+                                  : BodyOutline(body, o.camera.center, OUTLINE_PLANES);
   for (const Eigen::Vector2d& p : o.free_space) {
     const Eigen::Vector3d ray = o.camera.ray(p);
     if (outline.misses(ray))
@@ -68,6 +74,29 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
     covered.limits.push_back(limit);
   }
   return covered;
+}
+
+double missedPixels(const PieceContext& context,
+                    const Piece& piece,
+                    const Superquadric& body) {
+  const ObservedObject& o = context.observed;
+  if (o.outline != OutlineSource::MASK)
+    return 0.0;
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
+  const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+  const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / INSIDE);
+  const double weight =
+      std::min(1.0, double(stride) * std::pow(pixelStep(o) / OUTLINE_CORRELATION, 2));
+  const BodyOutline outline(body, o.camera.center, OUTLINE_PLANES);
+  const BesideJoints beside(o, piece, halfSize(context, piece));
+  double cost = 0.0;
+  for (std::size_t i = 0; i < piece.pixels.size(); i += stride) {
+    const Eigen::Vector2d& p = piece.pixels[i];
+    const double z = outline.sineBeyond(o.camera.ray(p)) * o.depth / sigma;
+    if (z > 0.0 && isWellInside(o.pixels, p) && beside(p) > 0.0)
+      cost += weight * std::min(z * z, MAX_COST);
+  }
+  return cost;
 }
 
 double hingeCost(const std::vector<TangentPlane>& limits, const Superquadric& body) {

@@ -17,6 +17,11 @@ struct Covered {
 /** \brief M11: what a body covers of the pixels that show what is behind it. */
 Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body);
 
+/** \brief M11: what a body leaves open of a piece's pixels: its rays miss what they
+ * show. */
+double
+missedPixels(const PieceContext& context, const Piece& piece, const Superquadric& body);
+
 /** \brief Cost of a body that reaches beyond planes. */
 double hingeCost(const std::vector<TangentPlane>& limits, const Superquadric& body);
 

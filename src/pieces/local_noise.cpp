@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pieces/piece.h"
 #include "sensor/local_quadric.h"
+#include "tuning/parts_tuning.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -10,10 +11,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr Eigen::Index SAMPLES = 100;
-constexpr Eigen::Index MAX_POINTS = 3000;
-constexpr std::size_t FEWEST = 24, MOST = 96; ///< neighbours through which a plane goes
-constexpr double SHARING = 5.0; ///< points of one error for which the fewest suffice
+using namespace tuning::local_noise;
 
 } // namespace
 

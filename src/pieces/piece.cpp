@@ -2,6 +2,7 @@
 #include "pieces/piece.h"
 
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 
@@ -9,11 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t PIXEL_SAMPLE = 4000;
-/** \brief How well a cut says where a part ends, over the part's size: parts overlap.
- */
-constexpr double END_SIGMA = 0.25;
+using namespace tuning::part;
+using namespace tuning::piece;
 } // namespace
 
 Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& columns) {
@@ -27,6 +25,12 @@ double halfDiagonal(const Eigen::Matrix3Xd& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
+int pixelStep(const ObservedObject& observed) {
+  return std::max(1,
+                  static_cast<int>(std::sqrt(double(observed.pixels.count()) /
+                                             double(PIXEL_SAMPLE))));
+}
+
 Piece wholePiece(const PieceContext& context) {
   Piece piece;
   for (Eigen::Index i = 0; i < context.observed.points.cols(); ++i)
@@ -34,8 +38,7 @@ Piece wholePiece(const PieceContext& context) {
   piece.contour = context.observed.contour;
   const CellMask& mask = context.observed.pixels;
   const CellRect box = boundingRect(mask);
-  const int step = std::max(
-      1, static_cast<int>(std::sqrt(double(mask.count()) / double(PIXEL_SAMPLE))));
+  const int step = pixelStep(context.observed);
   const auto onGrid = [step](int from) { return (from + step - 1) / step * step; };
   for (int y = onGrid(box.y); y < box.y + box.height; y += step)
     for (int x = onGrid(box.x); x < box.x + box.width; x += step)

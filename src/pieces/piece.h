@@ -46,6 +46,9 @@ Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& col
 /** \brief Half the diagonal of the box of points [m]. */
 double halfDiagonal(const Eigen::Matrix3Xd& points);
 
+/** \brief Pixels between two of Piece::pixels. */
+int pixelStep(const ObservedObject& observed);
+
 /** \brief The whole object as one piece. */
 Piece wholePiece(const PieceContext& context);
 

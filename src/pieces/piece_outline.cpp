@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pieces/piece_outline.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 
@@ -7,10 +8,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief How far from a cut the outline may be the joint's or the other part's, over
- * the part's size: shoulders are round, and cuts are not placed better than that. A
- * line that touches what is left of a bottle's shoulder makes its neck as wide. */
-constexpr double JOINT = 0.15;
+using namespace tuning::piece_outline;
 
 } // namespace
 
@@ -19,20 +17,24 @@ double stripWidth(const ObservedObject& o) {
          std::sqrt(o.camera.fx * o.camera.fy);
 }
 
+BesideJoints::BesideJoints(const ObservedObject& o, const Piece& piece, double size)
+    : joint_(JOINT * size / o.depth) {
+  for (const TangentPlane& end : piece.ends)
+    angles_.emplace_back(o.camera, -end.normal);
+}
+
+double BesideJoints::operator()(const Eigen::Vector2d& pixel) const {
+  double nearest = 1e300;
+  for (const AngleAbove& angle : angles_)
+    nearest = std::min(nearest, angle(pixel) - joint_);
+  return nearest;
+}
+
 std::vector<ContourPoint>
 outlineBesideJoints(const ObservedObject& o, const Piece& piece, double size) {
   if (!o.hasCamera() || piece.ends.empty())
     return piece.contour;
-  const double joint = JOINT * size / o.depth;
-  std::vector<AngleAbove> angles;
-  for (const TangentPlane& end : piece.ends)
-    angles.emplace_back(o.camera, -end.normal);
-  const auto beyondJoints = [&](const Eigen::Vector2d& pixel) {
-    double nearest = 1e300;
-    for (const AngleAbove& angle : angles)
-      nearest = std::min(nearest, angle(pixel) - joint);
-    return nearest;
-  };
+  const BesideJoints beyondJoints(o, piece, size);
   std::vector<ContourPoint> contour;
   for (const ContourPoint& p : piece.contour)
     if (beyondJoints(p.pixel) > 0.0)

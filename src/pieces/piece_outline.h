@@ -23,6 +23,19 @@ private:
   Eigen::Vector2d center_, per_pixel_;
 };
 
+/** \brief How far pixels are from a piece's joints to others, where its body's outline
+ * need not be the object's: the sine of the angle, positive well beside all of them. */
+class BesideJoints {
+public:
+  /** \param[in] size of the piece [m] */
+  BesideJoints(const ObservedObject& o, const Piece& piece, double size);
+  double operator()(const Eigen::Vector2d& pixel) const;
+
+private:
+  std::vector<AngleAbove> angles_;
+  double joint_;
+};
+
 /** \brief Width of the strip at a cut in which a piece has no outline of its own; the
  * sine of its angle. */
 double stripWidth(const ObservedObject& o);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // M18: where an object may consist of two parts: where its width changes at once.
 #include "pieces/piece.h"
+#include "tuning/parts_tuning.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -12,11 +13,7 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int BINS = 40;
-constexpr int MARGIN = 2;   ///< bins at either end in which no cut makes sense
-constexpr int WINDOW = 2;   ///< bins on each side whose mean widths are compared
-constexpr int PER_AXIS = 3; ///< best jumps of one profile
-constexpr double SMALLEST_JUMP = 0.05; ///< over the largest width
-constexpr double SMALLEST_GAP = 0.25;  ///< over the largest number of pixels
+using namespace tuning::propose_cuts;
 
 /** \brief One point on its way along an axis. */
 struct Station {

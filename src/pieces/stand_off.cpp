@@ -5,6 +5,7 @@
 #include "pieces/handle.h"
 #include "pieces/piece.h"
 #include "sensor/local_quadric.h"
+#include "tuning/parts_tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +14,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 24;
-constexpr std::size_t MIN_CLUSTER = 8; ///< of a handle's other arm
-constexpr double SAME_SIDE = 0.5;      ///< cosine of 60 degrees around the axis
-/** \brief How far a handle sticks out at least, over the body's radius: fingers go
- * through, and what hugs the wall is the wall. */
-constexpr double STICKS_OUT = 0.2;
-constexpr double NARROW = 1.0; ///< how wide it is along the wall at most, over the same
-constexpr double STANDS_OFF = 4.0;        ///< sigmas from the body
-constexpr double LINKED = 0.12;           ///< of neighbours, over the object's size
-constexpr int PLANES = 48;                ///< of the body's outline
-constexpr double EDGE = 2.0, JOINT = 6.0; ///< pixels beside the body's outline
+using namespace tuning::part;
+using namespace tuning::stand_off;
+using namespace tuning::shared;
 
 /** \brief The body, larger by a margin on all sides. */
 Superquadric grown(Superquadric body, double margin) {
@@ -98,6 +91,26 @@ std::vector<int> outside(const PieceContext& context,
   return off;
 }
 
+/** \brief Points in the image, some of them where they are many. */
+class Projections {
+public:
+  Projections(const ObservedObject& o, const std::vector<int>& columns) {
+    constexpr std::size_t MOST = 300;
+    const std::size_t step = 1 + columns.size() / MOST;
+    for (std::size_t i = 0; i < columns.size(); i += step)
+      pixels_.push_back(o.camera.project(o.points.col(columns[i])));
+  }
+  double squareTo(const Eigen::Vector2d& pixel) const {
+    double least = 1e300;
+    for (const Eigen::Vector2d& p : pixels_)
+      least = std::min(least, (p - pixel).squaredNorm());
+    return least;
+  }
+
+private:
+  std::vector<Eigen::Vector2d> pixels_;
+};
+
 } // namespace
 
 std::size_t pointsOff(const PieceContext& context, const Piece& piece) {
@@ -148,20 +161,31 @@ bool standsOff(const PieceContext& context,
   const auto meets = [&o](const BodyOutline& outline, const Eigen::Vector2d& p) {
     return !outline.misses(o.camera.ray(p));
   };
+  // what sticks out elsewhere is an error of the outline, and nobody's
+  const Projections of_handle(o, handle.points), of_body(o, body_piece.points);
+  const auto isBeside = [&](const Eigen::Vector2d& p) {
+    return of_handle.squareTo(p) < of_body.squareTo(p);
+  };
+  std::vector<Eigen::Vector2d> strays;
   for (const Eigen::Vector2d& p : piece.pixels)
-    (meets(near, p) ? body_piece : handle).pixels.push_back(p);
+    (meets(near, p) ? body_piece.pixels
+     : isBeside(p)  ? handle.pixels
+                    : strays)
+        .push_back(p);
   const auto addForeign = [](Piece& to, const Eigen::Vector2d& pixel_of_other) {
     ContourPoint foreign;
     foreign.pixel = pixel_of_other;
     foreign.own = false;
     to.contour.push_back(foreign);
   };
-  for (const ContourPoint& p : piece.contour) {
-    if (!meets(near, p.pixel))
-      handle.contour.push_back(p);
-    else
+  for (const ContourPoint& p : piece.contour)
+    if (meets(near, p.pixel))
       body_piece.contour.push_back(p);
-  }
+    else if (isBeside(p.pixel))
+      handle.contour.push_back(p);
+  for (const Eigen::Vector2d& p : strays)
+    if (meets(far, p))
+      addForeign(body_piece, p);
   for (const Eigen::Vector2d& p : handle.pixels)
     if (meets(far, p)) {
       addForeign(handle, p);
@@ -171,7 +195,6 @@ bool standsOff(const PieceContext& context,
 }
 
 double scatter(const PieceContext& context, const Piece& piece) {
-  constexpr std::size_t MOST = 1000;
   constexpr double MEDIAN_OF_NORMAL = 0.6745;
   const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
   std::vector<int> some;

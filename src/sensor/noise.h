@@ -13,4 +13,8 @@ Eigen::VectorXf lateralNoise(const Observation& o, const DepthPatch& patch);
 /** \brief How many points share one error: 1 where neighbours err independently. */
 double sharingOfErrors(const Eigen::Matrix3Xd& points);
 
+/** \brief Pixels of a mask's outline that err alike: hands, nets and graph cuts smooth
+ * over about as many. */
+constexpr double OUTLINE_CORRELATION = 7.0;
+
 } // namespace pcl_sq::detail

@@ -11,6 +11,9 @@ namespace pcl_sq {
 namespace {
 
 constexpr int MAX_STEPS = 64;
+/** \brief What a bent body may be thickened by in its hollow, over its section's half
+ * width: as much as its surface is uncertain. */
+constexpr double HULL = 0.05;
 
 /** \brief Point of the box farthest along n. */
 Eigen::Vector3d farthest(const OrientedBox& box, const Eigen::Vector3d& n) {
@@ -89,14 +92,17 @@ gjk(const OrientedBox& box, const Superquadric& s, double enough, bool find_dist
         [&](const Eigen::Vector3d& n) { return s.supportPoint(n); },
         enough,
         find_distance);
-  const int pieces = detail::convexPieces(s);
+  // a finger fits into the bend: there a stretch's hull may stand off by R angle^2 / 2
+  const double sagitta = HULL * s.semi_axes.head<2>().minCoeff();
+  const int pieces =
+      detail::convexPieces(s, std::sqrt(2.0 * sagitta * std::abs(s.bend)));
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < pieces; ++i) {
     const double low = -1.0 + 2.0 * i / pieces, high = -1.0 + 2.0 * (i + 1) / pieces;
     const double middle = 0.5 * (low + high) * s.semi_axes.z();
+    const detail::BentSupport slices(s, low, high);
     const auto farthest_of_piece = [&](const Eigen::Vector3d& n) {
-      return s.toWorld(
-          detail::bentContact(s, s.rotation.transpose() * n, low, high).at);
+      return s.toWorld(slices.contact(s.rotation.transpose() * n).at);
     };
     least = std::min(least,
                      gjk(box,

@@ -4,13 +4,20 @@
 
 #include "view_problem/view_problem.h"
 
+#include <functional>
+
 namespace pcl_sq::detail {
 
+/** \brief What else speaks against a body, in the cloud's frame, as a cost. */
+using Objection = std::function<double(const Superquadric& body)>;
+
 /** \brief fitView() without the points' distances in its summary: most fits are
- * only compared. */
+ * only compared.
+ * \param[in] objection that families are compared by as well, or none */
 ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                    const ViewEvidence& evidence,
-                   const ViewFitOptions& options);
+                   const ViewFitOptions& options,
+                   const Objection& objection = {});
 
 /** \brief The points' distances of a fit's model. */
 void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit);

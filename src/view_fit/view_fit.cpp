@@ -3,6 +3,7 @@
 
 #include "families/families.h"
 #include "pcl_sq/multi_superquadric.h"
+#include "tuning/view_tuning.h"
 #include "union/surface_statistics.h"
 #include "util/option_check.h"
 #include "util/parallel_for.h"
@@ -16,8 +17,7 @@ namespace {
 
 using namespace detail;
 
-constexpr double START_SIGMA = 0.1; ///< in the points' standard deviation
-constexpr std::size_t KEPT = 3;     ///< starts that are refined
+using namespace tuning::view_fit;
 
 bool cheaper(const Trial& a, const Trial& b) {
   return a.cost < b.cost;
@@ -89,7 +89,8 @@ namespace detail {
 
 ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                    const ViewEvidence& evidence,
-                   const ViewFitOptions& options) {
+                   const ViewFitOptions& options,
+                   const Objection& objection) {
   ViewFit result;
   ViewProblem problem;
   if (!problem.prepare(points, evidence, options)) {
@@ -114,6 +115,12 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (options.choose_shape)
     if (const auto tin = fitLid(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*tin);
+  if (objection)
+    for (ShapeCandidate& c : result.candidates) {
+      const double against = objection(problem.frame().toCloud(c.model));
+      c.cost += against;
+      c.bic += against;
+    }
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The families of superquadrics (M15) and their fits from a general one.
 #include "families/families.h"
+#include "tuning/view_tuning.h"
 #include "util/parallel_for.h"
 #include "view_fit/search_view.h"
 #include "view_problem/shape_spaces.h"
@@ -12,9 +13,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double BOX_EPSILON = 0.2;
-constexpr int ITERATIONS = 20;
-constexpr int JUDGED = 5; ///< iterations after which a family's fit may be given up
+using namespace tuning::view_shapes;
 
 /** \brief A solid of revolution that slides along its axis. */
 ParameterSpace coaxialSpace() {

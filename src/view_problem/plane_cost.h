@@ -5,32 +5,18 @@
 
 #include "pcl_sq/tangent_plane.h"
 #include "solver/levenberg_marquardt.h"
+#include "tuning/view_tuning.h"
 
 #include <cmath>
 #include <vector>
 
 namespace pcl_sq::detail {
 
-/** \brief Twice the logarithm of the prior odds, about 400 to 1, that a part shares the
- * axis of the solid of revolution beside it: things are turned on lathes, wheels and
- * moulds. */
-inline constexpr double SHARED_AXIS = 12.0;
-
-/** \brief Twice the logarithm of the prior odds against a taper: what one view shows of
- * a body, noise that is not alike everywhere, and parts that meet all feign one
- * (TaperedFit::DEMAND says the same in nats). */
-inline constexpr double TAPER = 20.0;
-
-/** \brief The same against a bent rod: points of a straight body's one side bend as
- * well. */
-inline constexpr double BENT = 20.0;
-
-/** \brief The same against an open vessel: about as many things are vessels as are not,
- * but its wall may follow what is no vessel's. */
-inline constexpr double VESSEL = 10.0;
-
-/** \brief Standard deviation of the logarithm of depth over width. */
-inline constexpr double DEPTH_SIGMA = 0.4;
+using tuning::odds::BENT;
+using tuning::odds::DEPTH_SIGMA;
+using tuning::odds::SHARED_AXIS;
+using tuning::odds::TAPER;
+using tuning::odds::VESSEL;
 
 /** \brief Squared, weighted support residuals, in the frame of the points.
  *

@@ -5,12 +5,11 @@
 #include "pcl_sq/view_fit.h"
 #include "solver/descriptions.h"
 #include "solver/levenberg_marquardt.h"
+#include "tuning/view_tuning.h"
 
 namespace pcl_sq::detail {
 
-/** \brief Cosine of the largest angle to the table's normal of an axis that may be
- * upright, 0.35 rad. */
-inline constexpr double UPRIGHT = 0.9394;
+using tuning::view_problem::UPRIGHT;
 
 /** \brief Turned as little as possible so that axis \a k is parallel to \a up. */
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up);

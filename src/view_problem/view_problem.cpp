@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view_problem/view_problem.h"
 
+#include "tuning/view_tuning.h"
 #include "view_problem/plane_sums.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,11 +12,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t MIN_POINTS = 12;
-constexpr std::size_t COARSE_POINTS = 128, MEDIUM_POINTS = 512;
-constexpr int FEW_PLANES = 16;
-/** \brief Density of outliers over the Gaussian's peak: 3 sigma is the border. */
-constexpr double OUTLIER = 0.01;
+using namespace tuning::view_problem;
+using namespace tuning::shared;
 
 std::vector<TangentPlane> toUnit(std::vector<TangentPlane> planes,
                                  const Normalisation& f) {

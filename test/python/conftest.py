@@ -46,6 +46,19 @@ def bottle():
     return parts, cloud
 
 
+def schema(name):
+    """The validator of a schema of docs/schemas, which may name others there."""
+    jsonschema = pytest.importorskip("jsonschema")
+    folder = os.path.join(os.environ["PCL_SQ_SOURCE_DIR"], "docs", "schemas")
+    contents = {}
+    for file_name in os.listdir(folder):
+        with open(os.path.join(folder, file_name)) as file:
+            contents[file_name] = json.load(file)
+        jsonschema.Draft7Validator.check_schema(contents[file_name])
+    return jsonschema.Draft7Validator(contents[name], resolver=jsonschema.RefResolver(
+        name, contents[name], store=contents))
+
+
 def numbers(model):
     """What two equal models have in common: their bodies, to the bit."""
     text = model if isinstance(model, str) else model.to_json()

@@ -124,6 +124,21 @@ def test_every_cloud_is_there_once_after_kills_of_workers_and_client(manifest, t
     assert stamps == {n: os.stat(out / "shards" / n).st_mtime_ns for n in stamps}
 
 
+@needs_dask
+def test_nothing_lacks_after_kills_of_scheduler_worker_and_client(tmp_path, bottle):
+    """benchmarks/cluster.py with few clouds: it begins anew what it has killed."""
+    source = os.environ["PCL_SQ_SOURCE_DIR"]
+    binaries = os.environ.get("PCL_SQ_BIN_DIR", "")
+    if not os.path.exists(os.path.join(binaries, "pcl_sq_fit")):
+        pytest.skip("pcl_sq_fit is not built")
+    cloud = write_xyz(tmp_path / "bottle.xyz", bottle[1])
+    done = subprocess.run([sys.executable, "-B", os.path.join(source, "benchmarks/cluster.py"),
+                           "kills", binaries, str(cloud), "--clouds", "60", "--kills", "1",
+                           "--", "--parts", "1"], capture_output=True, text=True, timeout=540)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.count("60 lines, 0 of them errors; as one process") == 2, done.stdout
+
+
 def test_what_makes_no_sense_is_refused(manifest, tmp_path):
     path, _ = manifest
 

@@ -103,6 +103,8 @@ def test_a_union_takes_the_nearest_part():
     points = np.array([[4.0, 0, 0], [7.0, 0, 0], [0, 0, 0]])
     np.testing.assert_allclose(union.distance(points), [2, 1, -2])
     assert union.nearest_part(points).tolist() == [0, 1, 0]
+    assert union.nearest_part(points[1]) == 1  # one point, one number
+    assert union.nearest_part([[np.nan, 0, 0]]).tolist() == [-1]
     assert len(union) == len(union.parts) == 2
     with pytest.raises(IndexError):
         union[2]

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import pcl_sq
+from conftest import schema, write_xyz
 
-SCHEMAS = os.path.join(os.environ["PCL_SQ_SOURCE_DIR"], "docs", "schemas")
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +43,30 @@ def test_sdf_is_well_formed_xml(model, tmp_path):
     assert mass == pytest.approx(1000 * model.union.volume, rel=1e-6)
     for uri in root.iter("uri"):
         assert (tmp_path / uri.text.replace("model://thing/", "")).exists()
+
+
+def test_libsdformat_reads_what_the_model_holds(model, tmp_path):
+    reader = os.environ.get("PCL_SQ_READ_SDF")
+    if not reader:
+        pytest.skip("libsdformat-dev is not installed")
+    model.export(tmp_path / "thing.sdf", density=1000)
+    done = subprocess.run([reader, tmp_path / "thing.sdf"], capture_output=True, text=True)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0] == "model thing links 1"
+    words = lines[2].split()
+    assert float(words[1]) == pytest.approx(1000 * model.union.volume, rel=1e-4)
+    assert words[3] == "1"  # inertia as of a body that can be
+    assert int(words[7]) == len(lines) - 3 and "unknown" not in lines
+    for line in lines[3:]:
+        if line.startswith("mesh "):
+            assert (tmp_path / line[5:]).exists()
+    assert "cylinder" in lines  # the bottle's body
+    # a file that is none is refused, so that the test tells
+    (tmp_path / "bad.sdf").write_text((tmp_path / "thing.sdf").read_text().replace(
+        "<mass>", "<mess>").replace("</mass>", "</mess>").replace("<link", "<lonk").replace(
+            "</link", "</lonk"))
+    assert subprocess.run([reader, tmp_path / "bad.sdf"], capture_output=True).returncode
 
 
 @pytest.mark.parametrize("ending", ["glb", "stl"])
@@ -78,14 +102,6 @@ def test_another_ending_is_refused(model, tmp_path):
         pcl_sq.Model.from_parts([]).export(tmp_path / "nothing.glb")
 
 
-def schema(name):
-    jsonschema = pytest.importorskip("jsonschema")
-    with open(os.path.join(SCHEMAS, name)) as file:
-        contents = json.load(file)
-    jsonschema.Draft7Validator.check_schema(contents)
-    return jsonschema.Draft7Validator(contents)
-
-
 def test_models_and_grasps_are_as_their_schemas_say(model, bottle, program, tmp_path):
     validator = schema("model.schema.json")
     validator.validate(json.loads(model.to_json()))
@@ -99,6 +115,19 @@ def test_models_and_grasps_are_as_their_schemas_say(model, bottle, program, tmp_
     estimated.save(tmp_path / "m.json")
     program("pcl_sq_grasp", tmp_path / "m.json", "-q", "-o", tmp_path / "g.json")
     schema("grasps.schema.json").validate(json.loads((tmp_path / "g.json").read_text()))
+
+
+def test_each_line_of_many_clouds_is_as_its_schema_says(bottle, program, tmp_path):
+    good = write_xyz(tmp_path / "good.xyz", bottle[1])
+    (tmp_path / "bad.xyz").write_text("no numbers\n")
+    done = program("pcl_sq_fit", good, tmp_path / "bad.xyz", "--jsonl", "-q", check=False)
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    assert ["error" in line for line in lines] == [False, True]
+    validator = schema("line.schema.json")
+    for line in lines:
+        validator.validate(line)
+    assert not validator.is_valid(dict(lines[0], error="both"))
+    assert not validator.is_valid({"error": "of what?"})
 
 
 def test_a_scene_of_moveit_names_object_and_table(tmp_path):

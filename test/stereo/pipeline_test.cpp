@@ -153,3 +153,13 @@ TEST(StereoReprojector, MatchesAWindowAsTheWholePair) {
   EXPECT_THROW(reprojector.compute(s.left, s.right, {{900, 60, 140, 120}, 0.5, 2.0}),
                Exception);
 }
+
+TEST(StereoPipeline, AModelFarFromItsPointsIsNoneWhateverTheHint) {
+  EstimationReport report;
+  report.confidence = 1.0;
+  report.rms_distance = 0.005;
+  EXPECT_EQ(doubtAbout({}, report, true), "");
+  report.rms_distance = 0.04;
+  EXPECT_NE(doubtAbout({}, report, true).find("40 mm off"), std::string::npos);
+  EXPECT_NE(doubtAbout({}, report, false).find("40 mm off"), std::string::npos);
+}

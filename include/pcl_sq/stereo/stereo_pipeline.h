@@ -136,8 +136,9 @@ tellView(const StereoView& view, bool painted, ViewOptions& options);
 PCL_SQ_EXPORTS void tellNoise(const StereoResult& stereo, ViewOptions& options);
 
 /** \brief Why a model of the best mode is not to be trusted, a sentence, or "": it
- * fills but a piece of the box that was drawn, or leaves doubt where nobody pointed at
- * it. \param[in] hinted whether somebody did */
+ * fills but a piece of the box that was drawn, its points lie farther off than a hand
+ * makes up for, or it leaves doubt where nobody pointed at it. \param[in] hinted
+ * whether somebody did */
 PCL_SQ_EXPORTS std::string
 doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted);
 

@@ -57,6 +57,8 @@ doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted) 
   constexpr double LEAST_FILLED = 0.4;
   // as much of outline and points must agree as of the object's pixels of any model
   constexpr double LEAST_CONFIDENCE = 0.8;
+  // no hand opens so much wider than what it is to grasp [m]
+  constexpr double FARTHEST_OFF = 0.03;
   const CellMask& pixels = report.view.pixels;
   if (view.segment.mask.empty() && !pixels.cells.empty()) {
     const double share = double(boundingRect(pixels).area()) /
@@ -67,6 +69,12 @@ doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted) 
              " % of it only, so it is not what the box was drawn around; give a "
              "mask of the object, or more texture to the pair.";
   }
+  if (report.rms_distance > FARTHEST_OFF)
+    return "the object's points lie " +
+           std::to_string(std::lround(1e3 * report.rms_distance)) +
+           " mm off the model, which is of no use to a hand: from so far the pair does "
+           "not see better, or it is no one thing; take it from nearer, or give a "
+           "tighter region or a mask of the object.";
   if (!hinted && report.confidence < LEAST_CONFIDENCE)
     return "what was taken for the object agrees with its model by " +
            std::to_string(int(100.0 * report.confidence)) +

@@ -194,7 +194,7 @@ TEST(Bend, SupportIsTheFarthestPointOfTheMeshAndHasItsDerivatives) {
     for (int i = 0; i < 13; ++i)
       EXPECT_NEAR(row.derivatives[i], difference(i), 1e-3) << "parameter " << i;
     const Eigen::Vector3d local = s.rotation.transpose() * n;
-    const detail::BentContact contact = detail::bentContact(s, local);
+    const detail::BentContact contact = detail::BentSupport(s).contact(local);
     EXPECT_NEAR(
         local.dot(detail::bendVelocity(s, contact.unbent)), difference(13), 1e-3);
   }

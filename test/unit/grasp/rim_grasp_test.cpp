@@ -77,3 +77,47 @@ TEST(RimGrasp, BoxesCollideWithTheMaterialOnly) {
   }
   EXPECT_GT(free_inside, 5);
 }
+
+TEST(RimGrasp, ABananaOnATableIsHeldAcross) {
+  // a finger reaches into its bend: 180 mm along, 32 mm thick, lying on the table
+  Superquadric banana;
+  banana.semi_axes = {0.016, 0.016, 0.09};
+  banana.epsilon1 = 0.1;
+  banana.bend = 10.0;
+  banana.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0; // its circle in the table's plane
+  banana.center.z() = 0.016;
+  MultiSuperquadric object;
+  object.parts = {banana};
+  GraspScene scene;
+  scene.has_table = true;
+  GraspPlannerOptions options;
+  options.min_observed = 0.0;
+  const GraspPlan plan = GraspPlanner(Gripper(), options).plan(object, scene);
+  ASSERT_TRUE(plan.ok()) << plan.failure;
+  EXPECT_NEAR(plan.grasps[0].width, 0.032, 1e-3);
+}
+
+TEST(RimGrasp, AHandThatOpensLessReachesBelowASlope) {
+  // an edge that overhangs by 45 degrees: below it the wide opening meets the table
+  Superquadric block;
+  block.semi_axes = {0.03, 0.2, 0.03};
+  block.epsilon1 = block.epsilon2 = 0.1;
+  block.rotation = Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::UnitY());
+  block.center.z() = 0.043;
+  MultiSuperquadric object;
+  object.parts = {block};
+  GraspScene scene;
+  scene.has_table = true;
+  GraspPlannerOptions options;
+  options.min_observed = 0.0;
+  Gripper gripper;
+  ASSERT_TRUE(Gripper::preset("wsg_50", gripper));
+  options.opening = 0.03;
+  const GraspPlan plan = GraspPlanner(gripper, options).plan(object, scene);
+  ASSERT_TRUE(plan.ok()) << plan.failure;
+  const bool some_open_less =
+      std::any_of(plan.grasps.begin(), plan.grasps.end(), [](const Grasp& g) {
+        return g.open_width < g.width + 0.03;
+      });
+  EXPECT_TRUE(some_open_less);
+}

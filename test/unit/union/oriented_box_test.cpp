@@ -111,6 +111,26 @@ TEST(OrientedBox, NoCollisionMeansThatNoSurfacePointLiesInTheBox) {
   EXPECT_GT(apart, 50);
 }
 
+TEST(OrientedBox, TheHollowOfABendIsFree) {
+  Random random(106);
+  for (int i = 0; i < 100; ++i) {
+    Superquadric s;
+    const double width = random.uniform(0.005, 0.02);
+    s.semi_axes = {width, width * random.uniform(1.0, 1.5), random.uniform(0.05, 0.1)};
+    s.bend = random.uniform(0.5, 1.4) / s.semi_axes.z(); // the circle's part, half
+    s.rotation = random.rotation();
+    // a cube beside the middle, where the circle's centre is
+    OrientedBox box;
+    box.rotation = s.rotation;
+    box.half_sizes.setConstant(0.1 * width);
+    const double gap = 0.06 * width;
+    box.center = s.center + s.rotation.col(0) * (1.1 * width + gap);
+    EXPECT_FALSE(collides(box, s)) << i;
+    box.center -= s.rotation.col(0) * 1.1 * gap;
+    EXPECT_TRUE(collides(box, s)) << i;
+  }
+}
+
 TEST(OrientedBox, ASharedPointMeansCollision) {
   Random random(105);
   for (int i = 0; i < 500; ++i) {
