@@ -10,7 +10,8 @@ constexpr std::size_t SCRAP = 150; ///< pixels too few for a body of their own
 constexpr double SAME_COLOR = 1.5; ///< of colorDistance()
 constexpr double CREASE = 0.35;    ///< mean angle of a fold that may part things [rad]
 
-/** \brief Patches that are joined to things; one that was joined to another is empty. */
+/** \brief Patches that are joined to things; one that was joined to another is empty.
+ */
 class PatchGraph {
 public:
   PatchGraph(const SceneView& view, Patches patches)
