@@ -83,8 +83,9 @@ def _files_of(calibration: Union[PathLike, Sequence[PathLike], None]) -> List[st
 
 
 def _scaled(depth: npt.ArrayLike, depth_scale: Optional[float]) -> npt.ArrayLike:
-    return depth if depth_scale is None else np.asarray(depth, np.float32) * np.float32(
-        depth_scale)
+    # rounded once, as the programs do
+    return depth if depth_scale is None else (
+        np.asarray(depth, np.float64) * depth_scale).astype(np.float32)
 
 
 def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
