@@ -117,7 +117,7 @@ def connected(arguments: argparse.Namespace) -> Iterator[Tuple[Any, int]]:
         return
     workers = arguments.local or os.cpu_count() or 1
     with distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True,
-                                  dashboard_address=None, memory_limit=0,
+                                  dashboard_address=":0", memory_limit=0,
                                   silence_logs=50) as cluster, \
             distributed.Client(cluster) as client:
         yield client, workers
