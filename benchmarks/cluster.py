@@ -76,10 +76,10 @@ def batch_command(arguments, manifest, out, *more):
                 "--"] + arguments.words
 
 
-def quiet(command, **options):
-    """A process of its own group that says nothing."""
+def quiet(command, session=True):
+    """A process that says nothing, of its own group if it is to be killed."""
     return subprocess.Popen([str(c) for c in command], stdout=subprocess.DEVNULL,
-                            stderr=subprocess.DEVNULL, start_new_session=True, **options)
+                            stderr=subprocess.DEVNULL, start_new_session=session)
 
 
 def end(process):
@@ -231,7 +231,8 @@ def timed(commands):
     """(seconds, seconds of processor) of processes beside each other."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.time()
-    running = [quiet(c) for c in commands]
+    # in one session: Linux shares the processor among sessions before processes
+    running = [quiet(c, session=False) for c in commands]
     for process in running:
         if process.wait() not in (0, 1):
             sys.exit("a process has failed: %s" % process.args)

@@ -60,6 +60,13 @@ if grep -q 'PCL_SQ_BUILD_PYTHON:BOOL=ON' "$build/CMakeCache.txt"; then
     fail "python3-pcl-sq does not import"
   rm -rf "$build/deb/root"
 fi
+# Debian's files have no run path: what loads plug-ins must know where they are
+for file in "$(package 'libpcl-sq-visualization[0-9]*') $lib/libpcl_sq_visualization.so" \
+  "$(package 'libpcl-sq-stereo[0-9]*') $lib/libpcl_sq_stereo.so" \
+  "$(package pcl-sq-apps) usr/bin/pcl_sq_fit"; do
+  dpkg-deb --fsys-tarfile "${file% *}" | tar -xO --wildcards "./${file#* }*" |
+    grep -aq "/$lib/pcl_sq-" || fail "${file#* } does not find its plug-ins"
+done
 # what policy asks of every package, and of the programs' man pages and completion
 programs=$(cd apps && ls pcl_sq_*.cpp)
 for deb in "$build"/deb/*.deb; do

@@ -19,7 +19,7 @@ packages=(
 
 # the names of the packages that are not installed
 missing() {
-  comm -23 <(printf '%s\n' "${packages[@]}" | sort) \
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) \
     <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null |
       sed -n 's/^installed //p' | sort -u)
 }

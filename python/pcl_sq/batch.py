@@ -99,7 +99,13 @@ def connected(arguments: argparse.Namespace) -> Iterator[Tuple[Any, int]]:
     distributed = _untyped(typed)
     # a worker that is killed comes back; a shard that kills them is looked at one by one
     dask.config.set({"distributed.scheduler.allowed-failures": 5,
-                     "distributed.comm.timeouts.connect": "20s"})
+                     "distributed.comm.timeouts.connect": "20s",
+                     # what watches the workers a hundred times a second costs a twelfth of a
+                     # core, for tasks that take seconds
+                     "distributed.worker.profile.interval": "10s",
+                     "distributed.worker.profile.cycle": "60s",
+                     "distributed.admin.tick.interval": "1s",
+                     "distributed.admin.system-monitor.interval": "10s"})
     if arguments.scheduler:
         try:
             with distributed.Client(arguments.scheduler, timeout="20s") as client:
@@ -111,7 +117,7 @@ def connected(arguments: argparse.Namespace) -> Iterator[Tuple[Any, int]]:
         return
     workers = arguments.local or os.cpu_count() or 1
     with distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True,
-                                  dashboard_address=None, memory_limit=0,
+                                  dashboard_address=":0", memory_limit=0,
                                   silence_logs=50) as cluster, \
             distributed.Client(cluster) as client:
         yield client, workers

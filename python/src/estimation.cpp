@@ -6,6 +6,7 @@
 #include "model/grasp_output.h"
 #include "options/model_options.h"
 #include "point_clouds.h"
+#include "words.h"
 
 #include "command_line/value_checks.h"
 #include "pcl_sq/file_io.h"
@@ -36,18 +37,17 @@ py::tuple estimate(const py::array& array,
                    const std::string& frame,
                    const Words& words) {
   app::Shape shape = shapeOf(PointArray(array), colors);
-  app::ModelOptions options;
+  CellMask cells;
   if (mask)
-    options.estimation.view.mask = cellsOf(*mask);
+    cells = cellsOf(*mask);
   const app::ModelResult result = guarded([&] {
-    app::parseWords(
-        "pcl_sq_fit",
-        [&](CLI::App& cli) {
-          app::addCloudOptions(cli, options.cloud);
-          app::addModelOptions(cli, options);
-          app::addCoverageOptions(cli, options);
-        },
-        words);
+    auto options = readWords<app::ModelOptions>(
+        "pcl_sq_fit", words, [](CLI::App& cli, app::ModelOptions& read) {
+          app::addCloudOptions(cli, read.cloud);
+          app::addModelOptions(cli, read);
+          app::addCoverageOptions(cli, read);
+        });
+    options.estimation.view.mask = std::move(cells);
     if (mask && (options.remove_plane || !options.roi.empty() || !options.box.empty()))
       throw app::UsageError("mask says already which pixels are the object: leave out "
                             "roi, box and remove_plane.");
@@ -75,7 +75,7 @@ std::string planGrasps(const ModelFile& file,
   if (cloud)
     shape = shapeOf(PointArray(*cloud), std::nullopt);
   return guarded([&] {
-    app::GraspOptions options;
+    app::GraspOptions options; // a gripper's file may change from call to call
     app::parseWords(
         "pcl_sq_grasp",
         [&](CLI::App& cli) {

@@ -5,6 +5,7 @@
 #include "errors.h"
 #include "files/cloud_io.h"
 #include "model/model_line.h"
+#include "words.h"
 
 #include "command_line/value_checks.h"
 
@@ -71,15 +72,12 @@ py::tuple readCloud(const std::string& path, const Words& words) {
 /** \brief The line of pcl_sq_fit --jsonl, and whether it holds a model. */
 py::tuple fitLine(const std::string& path, const Words& words) {
   const app::ModelLine line = guarded([&] {
-    app::ModelOptions options;
-    app::parseWords(
-        "pcl_sq_fit",
-        [&](CLI::App& cli) {
-          app::addCloudOptions(cli, options.cloud);
-          app::addModelOptions(cli, options);
-          app::addCoverageOptions(cli, options);
-        },
-        words);
+    const auto options = readWords<app::ModelOptions>(
+        "pcl_sq_fit", words, [](CLI::App& cli, app::ModelOptions& read) {
+          app::addCloudOptions(cli, read.cloud);
+          app::addModelOptions(cli, read);
+          app::addCoverageOptions(cli, read);
+        });
     app::checkModelOptions(options);
     return app::makeModelLine(path, options);
   });

@@ -31,10 +31,14 @@ std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
                                      double sigma,
                                      const std::vector<ShapeCandidate>& candidates);
 
-/** \brief The best bent rod, if no other family is near the points. */
+/** \brief The best bent rod, if no other family is near the points.
+ * \param[in] profile of a handle: the area that it covers in the view, over the frame's
+ * unit squared. It is as wide as its area over its length, and no longer than its
+ * points, for its ends are in the body; 0: no handle */
 std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
                                       double sigma,
-                                      const std::vector<ShapeCandidate>& candidates);
+                                      const std::vector<ShapeCandidate>& candidates,
+                                      double profile = 0.0);
 
 /** \brief Last iterations of a bent rod with all points. */
 void fitBentAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);

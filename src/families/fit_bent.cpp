@@ -23,14 +23,18 @@ struct Rod {
   double cost = 1e300; ///< over sigma^2
   bool round = true;
   bool held = false; ///< it lies on the table
+  bool thick = true; ///< or its section is known
 };
 
 Rod fitRod(const BentProblem& problem, const Rod& start, int iterations) {
   LmLimits limits;
   limits.max_iterations = iterations;
   limits.cost_tolerance = 1e-5;
-  auto found =
-      minimiseSquares(problem, start.model, bentBasis(start.round, start.held), limits);
+  auto found = minimiseSquares(problem,
+                               start.model,
+                               start.thick ? bentBasis(start.round, start.held)
+                                           : basisWithout<BentProblem::N>({6, 7}),
+                               limits);
   Rod rod = start;
   rod.model = found.model;
   rod.model.rotation =
@@ -88,9 +92,12 @@ bool isRod(const Superquadric& s) {
   return s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff();
 }
 
-/** \brief Whether a rod is seen along most of its length: what is seen of a short
- * stretch of it may be anything's. */
-bool isSeenAlong(const UnitPoints& points, const Superquadric& s) {
+/** \brief The heights of a rod between which it has points. */
+struct Stretch {
+  double low, high;
+};
+
+Stretch seenOf(const UnitPoints& points, const Superquadric& s) {
   std::vector<double> along;
   for (std::size_t i = 0; i < points.size(); ++i)
     along.push_back(unbent(s, s.toLocal(points[i].cast<double>())).z());
@@ -98,7 +105,29 @@ bool isSeenAlong(const UnitPoints& points, const Superquadric& s) {
   std::nth_element(along.begin(), along.begin() + cut, along.end());
   const double low = along[std::size_t(cut)];
   std::nth_element(along.begin(), along.end() - 1 - cut, along.end());
-  return *(along.end() - 1 - cut) - low > SEEN_LENGTH * 2.0 * s.semi_axes.z();
+  return {low, *(along.end() - 1 - cut)};
+}
+
+/** \brief Whether a rod is seen along most of its length: what is seen of a short
+ * stretch of it may be anything's. */
+bool isSeenAlong(const UnitPoints& points, const Superquadric& s) {
+  const Stretch seen = seenOf(points, s);
+  return seen.high - seen.low > SEEN_LENGTH * 2.0 * s.semi_axes.z();
+}
+
+/** \brief A rod without what reaches on by more than its width beyond its points, into
+ * the body that it is a handle of. */
+Superquadric trimmed(const UnitPoints& points, const Superquadric& s) {
+  const Stretch seen = seenOf(points, s);
+  const double a3 = s.semi_axes.z(), width = s.semi_axes.head<2>().maxCoeff();
+  const double low = std::max(seen.low - width, -a3),
+               high = std::min(seen.high + width, a3);
+  const BentFrame middle = bentFrame(s, 0.5 * (low + high));
+  Superquadric t = s;
+  t.center = s.toWorld(middle.middle);
+  t.rotation = s.rotation * middle.axes;
+  t.semi_axes.z() = 0.5 * (high - low);
+  return t;
 }
 
 bool cheaper(const Rod& a, const Rod& b) {
@@ -109,7 +138,9 @@ bool cheaper(const Rod& a, const Rod& b) {
 
 std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
                                       double sigma,
-                                      const std::vector<ShapeCandidate>& candidates) {
+                                      const std::vector<ShapeCandidate>& candidates,
+                                      double profile) {
+  const bool is_handle = profile > 0.0;
   const ShapeCandidate* best = nullptr;
   // a vessel without a camera has the likelihood of a noise of its own
   for (const ShapeCandidate& c : candidates)
@@ -129,7 +160,9 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
     if (s.isValid() && isRod(s)) {
       Rod start{s};
       start.model.semi_axes.head<2>().setConstant(
-          std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
+          is_handle ? 0.25 * profile / s.semi_axes.z()
+                    : std::sqrt(s.semi_axes.x() * s.semi_axes.y()));
+      start.thick = !is_handle;
       found.push_back(fitRod(rough, start, FIRST_ITERATIONS));
     }
   std::sort(found.begin(), found.end(), cheaper);
@@ -139,13 +172,19 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), KEPT));
   // of what is not bent, a bottle for instance, no arc is nearer to the points
-  if (found.empty() || !(pointsCost(problem.coarse(), wide, found.front().model) <
-                         pointsCost(problem.coarse(), wide, best->model)))
+  if (found.empty() ||
+      (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) <
+                       pointsCost(problem.coarse(), wide, best->model))))
     return std::nullopt;
   const BentProblem thorough(problem, problem.medium(), sigma);
   std::optional<ShapeCandidate> chosen;
   const auto take = [&](const Rod& start) {
-    const Rod rod = fitRod(thorough, start, ITERATIONS);
+    Rod rod = fitRod(thorough, start, ITERATIONS);
+    if (is_handle && rod.cost < 1e299) {
+      Rod shorter = rod;
+      shorter.model = trimmed(problem.medium(), rod.model);
+      rod = fitRod(thorough, shorter, 0);
+    }
     const ShapeCandidate c = candidateOf(rod, problem);
     if (rod.cost < 1e299 && isRod(rod.model) &&
         isSeenAlong(problem.medium(), rod.model) && (!chosen || c.bic < chosen->bic))
@@ -154,6 +193,8 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   };
   for (const Rod& start : found) {
     Rod rod = take(start);
+    if (is_handle)
+      continue;
     rod.round = false;
     rod = take(rod);
     if (!problem.hasUp() ||

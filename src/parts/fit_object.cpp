@@ -101,7 +101,10 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
 void finish(const PieceContext& context, std::vector<Piece>& pieces) {
   const std::size_t largest = largestOfRevolution(pieces);
   const auto again = [&](std::size_t k, const Superquadric* axis) {
-    if (!axis && !coversFreeSpace(pieces[k]))
+    // of a bent handle fitHandle() knows more than its points tell
+    const bool is_handle =
+        !pieces[k].stands && pieces[k].fit.chosen.shape == ShapeClass::BENT;
+    if (is_handle || (!axis && !coversFreeSpace(pieces[k])))
       return;
     Piece next = pieces[k];
     fitPiece(context, next, Effort::FINAL, axis);

@@ -14,7 +14,7 @@ namespace {
 constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
 constexpr double SAME_PATCH = 1.5; ///< of whole patches
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr double CREASE = 0.35;    ///< angle of normals [rad], concave: a fold
+constexpr double FOLD = 0.7;       ///< angle of normals [rad], concave: surely a fold
 constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
@@ -141,7 +141,7 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
     const PieceSums& b = superpixels.pieces[std::size_t(pair.second)];
     const double distance = colorDistance(a, b);
     if (distance < SAME_COLOR && border.jumps < JUMPS * border.pairs &&
-        border.meanFold() < CREASE)
+        border.meanFold() < FOLD)
       links.push_back({pair.first, pair.second, distance});
   }
   std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) {

@@ -4,8 +4,6 @@
 
 #include "patches/pixel_normals.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,8 +19,6 @@ constexpr double SIGMAS = 3.0; ///< of the depth's noise: more is a jump
 /** \brief Tangent of the steepest slope to the ray at which a surface is still seen:
  * depth cameras see nothing below some 10 degrees. */
 constexpr double STEEPEST = 5.0;
-constexpr double CHROMA_STEP = 0.03; ///< shares of red, green, blue that are told apart
-constexpr double LIGHT_STEP = 0.7;   ///< logarithm: light and shade of one colour
 
 constexpr float TURN = 0.35F; ///< of a normal: a fold that may part things [rad]
 
@@ -187,47 +183,6 @@ private:
 };
 
 } // namespace
-
-Eigen::Vector4f shadeOf(const Eigen::Vector3d& color) {
-  const double sum = color.sum() + 3.0; // black has no colour
-  Shade shade;
-  shade.head<3>() = (color / (sum * CHROMA_STEP)).cast<float>();
-  shade[3] = float(std::log(sum) / LIGHT_STEP);
-  return shade;
-}
-
-void PieceSums::add(const PieceSums& other) {
-  count += other.count;
-  point += other.point;
-  square += other.square;
-  color += other.color;
-}
-
-void Border::add(const Border& other) {
-  pairs += other.pairs;
-  jumps += other.jumps;
-  fold += other.fold;
-}
-
-Eigen::Vector3d PieceSums::normal() const {
-  const Eigen::Vector3d middle = mean();
-  const Eigen::Matrix3d spread = square / count - middle * middle.transpose();
-  const Eigen::Vector3d n =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
-  return n.dot(middle) > 0.0 ? Eigen::Vector3d(-n) : n;
-}
-
-double colorDistance(const PieceSums& a, const PieceSums& b) {
-  const Shade off = shadeOf(a.color / a.count) - shadeOf(b.color / b.count);
-  return double(off.norm());
-}
-
-double depthNoise(const SceneView& view) {
-  // where the ray through the image's middle meets the table
-  const double towards = -view.table.normal.z();
-  const double there = towards > 0.2 ? view.table.offset / towards : 1.0;
-  return view.table.noise / std::max(towards, 0.2) / std::max(there * there, 1e-6);
-}
 
 Superpixels divide(const SceneView& view, const CellMask& pixels) {
   Superpixels result;

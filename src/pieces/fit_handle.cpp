@@ -33,6 +33,14 @@ void choose(Piece& handle, const ShapeCandidate& c) {
   handle.fit.fit.termination = Termination::COST_CHANGE_TOO_SMALL;
 }
 
+/** \brief The area that a handle covers, seen from the camera [m^2]; 0 without one. */
+double profileOf(const ObservedObject& o, const Piece& handle) {
+  if (!o.hasCamera() || handle.pixels.empty())
+    return 0.0;
+  const double pixel = pixelStep(o) * o.depth;
+  return double(handle.pixels.size()) * pixel * pixel / (o.camera.fx * o.camera.fy);
+}
+
 /** \brief The bent rod nearest to a handle's points. */
 std::optional<ShapeCandidate>
 rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& around) {
@@ -56,7 +64,9 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
   ShapeCandidate nothing_near; // so that a rod is looked for
   nothing_near.cost = 1e299;
   nothing_near.model = problem.frame().toUnit(around);
-  std::optional<ShapeCandidate> rod = fitBent(problem, problem.noise(), {nothing_near});
+  const double unit = problem.frame().scale;
+  std::optional<ShapeCandidate> rod = fitBent(
+      problem, problem.noise(), {nothing_near}, profileOf(o, handle) / (unit * unit));
   if (rod)
     rod->model = problem.frame().toCloud(rod->model);
   return rod;
@@ -66,7 +76,7 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
 bool isSlender(const Superquadric& s) {
   Eigen::Vector3d half = s.semi_axes;
   std::sort(half.data(), half.data() + 3);
-  return half[2] > 2.0 * half[1];
+  return half[2] > 2.0 * half[1] && half[1] < 2.0 * half[0];
 }
 
 /** \brief Makes a handle that is no rod, a disc around its points for instance, a bent

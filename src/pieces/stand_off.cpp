@@ -91,6 +91,26 @@ std::vector<int> outside(const PieceContext& context,
   return off;
 }
 
+/** \brief Points in the image, some of them where they are many. */
+class Projections {
+public:
+  Projections(const ObservedObject& o, const std::vector<int>& columns) {
+    constexpr std::size_t MOST = 300;
+    const std::size_t step = 1 + columns.size() / MOST;
+    for (std::size_t i = 0; i < columns.size(); i += step)
+      pixels_.push_back(o.camera.project(o.points.col(columns[i])));
+  }
+  double squareTo(const Eigen::Vector2d& pixel) const {
+    double least = 1e300;
+    for (const Eigen::Vector2d& p : pixels_)
+      least = std::min(least, (p - pixel).squaredNorm());
+    return least;
+  }
+
+private:
+  std::vector<Eigen::Vector2d> pixels_;
+};
+
 } // namespace
 
 std::size_t pointsOff(const PieceContext& context, const Piece& piece) {
@@ -141,20 +161,31 @@ bool standsOff(const PieceContext& context,
   const auto meets = [&o](const BodyOutline& outline, const Eigen::Vector2d& p) {
     return !outline.misses(o.camera.ray(p));
   };
+  // what sticks out elsewhere is an error of the outline, and nobody's
+  const Projections of_handle(o, handle.points), of_body(o, body_piece.points);
+  const auto isBeside = [&](const Eigen::Vector2d& p) {
+    return of_handle.squareTo(p) < of_body.squareTo(p);
+  };
+  std::vector<Eigen::Vector2d> strays;
   for (const Eigen::Vector2d& p : piece.pixels)
-    (meets(near, p) ? body_piece : handle).pixels.push_back(p);
+    (meets(near, p) ? body_piece.pixels
+     : isBeside(p)  ? handle.pixels
+                    : strays)
+        .push_back(p);
   const auto addForeign = [](Piece& to, const Eigen::Vector2d& pixel_of_other) {
     ContourPoint foreign;
     foreign.pixel = pixel_of_other;
     foreign.own = false;
     to.contour.push_back(foreign);
   };
-  for (const ContourPoint& p : piece.contour) {
-    if (!meets(near, p.pixel))
-      handle.contour.push_back(p);
-    else
+  for (const ContourPoint& p : piece.contour)
+    if (meets(near, p.pixel))
       body_piece.contour.push_back(p);
-  }
+    else if (isBeside(p.pixel))
+      handle.contour.push_back(p);
+  for (const Eigen::Vector2d& p : strays)
+    if (meets(far, p))
+      addForeign(body_piece, p);
   for (const Eigen::Vector2d& p : handle.pixels)
     if (meets(far, p)) {
       addForeign(handle, p);

@@ -22,7 +22,8 @@ constexpr double MORE_UPRIGHT = 0.5;        ///< the same
 constexpr double PARALLEL = 0.95;           ///< cosine of two levels' normals
 constexpr double MOSTLY = 0.5;  ///< of a thing's pixels that are its top: a table's
 constexpr double SMALL = 0.125; ///< of that top: the largest thing on it
-constexpr double LARGE = 0.2;   ///< of the floor's pixels, at least that top's
+constexpr double SCRAP = 0.01;  ///< of that top: what may be an error
+constexpr double LARGE = 0.1;   ///< of the floor's pixels, at least that top's
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -77,7 +78,7 @@ struct Level {
   int pixels = 0;            ///< of the plane
   std::vector<Region> whole; ///< things that the image does not cut
   std::size_t standing = 0;  ///< their pixels
-  std::size_t cut = 0;       ///< those of things that one side cuts
+  std::size_t cut = 0;       ///< those of what the image cuts
 };
 
 Level judge(const TableModel& plane, const Thinned& image) {
@@ -96,7 +97,7 @@ Level judge(const TableModel& plane, const Thinned& image) {
     if (!region.cut()) {
       level.standing += region.pixels.size();
       level.whole.push_back(std::move(region));
-    } else if (region.cutOnce())
+    } else
       level.cut += region.pixels.size();
   }
   return level;
@@ -114,17 +115,21 @@ bool isBefore(const Level& table, const Level& wall) {
 bool isTableOn(const Level& top, const Level& floor, const Thinned& image) {
   if (top.whole.empty() || top.plane.normal.dot(floor.plane.normal) < PARALLEL)
     return false;
-  std::size_t largest = 0;
-  for (const Region& thing : top.whole)
-    largest = std::max(largest, thing.pixels.size());
   for (const Region& thing : floor.whole) {
     std::size_t on_top = 0;
     for (const int c : thing.pixels)
       on_top += std::abs(top.plane.height(image.points.col(c).cast<double>())) <=
                 DISTANCE * double(image.points(2, c));
-    if (double(on_top) > MOSTLY * double(thing.pixels.size()))
-      return double(on_top) > LARGE * double(floor.pixels) &&
-             double(largest) < SMALL * double(on_top);
+    if (double(on_top) < MOSTLY * double(thing.pixels.size()) ||
+        double(on_top) < LARGE * double(floor.pixels))
+      continue;
+    std::size_t largest = 0;
+    int count = 0;
+    for (const Region& upper : top.whole) {
+      largest = std::max(largest, upper.pixels.size());
+      count += double(upper.pixels.size()) > SCRAP * double(on_top);
+    }
+    return count > 1 || double(largest) < SMALL * double(on_top);
   }
   return false;
 }

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 using namespace pcl_sq;
@@ -64,6 +66,27 @@ TEST(RealClouds, MugOfTheStereoSceneBecomesBodyAndHandle) {
     smallest = std::min(smallest, size(part));
   }
   EXPECT_LT(smallest, 0.3 * largest) << model;
+}
+
+TEST(RealClouds, HandleOfTheBlueMugIsABentRodAsThickAsItsArms) {
+  LOAD_OR_SKIP(cloud, "rgbd_blue_mug/cloud.pcd");
+  TabletopSegmentation<pcl::PointXYZ> tabletop;
+  tabletop.setInputCloud(cloud);
+  const pcl::IndicesPtr object(new pcl::Indices);
+  ASSERT_TRUE(tabletop.segment(*object)) << tabletop.getFailure();
+  const auto outside = [&](int i) { // of a box drawn by hand
+    const int x = i % int(cloud->width), y = i / int(cloud->width);
+    return x < 266 || x >= 422 || y < 162 || y >= 325;
+  };
+  object->erase(std::remove_if(object->begin(), object->end(), outside), object->end());
+  const MultiSuperquadric model = estimate(cloud, object);
+  // about 12 mm thick, its arc about 25 mm from the hole's middle
+  const auto handle = std::find_if(model.parts.begin(),
+                                   model.parts.end(),
+                                   [](const Superquadric& s) { return s.isBent(); });
+  ASSERT_NE(handle, model.parts.end()) << model;
+  EXPECT_NEAR(handle->semi_axes.x(), 0.006, 0.002) << model;
+  EXPECT_NEAR(1.0 / std::abs(handle->bend), 0.025, 0.008) << model;
 }
 
 TEST(RealClouds, MilkCartonHasItsSizeWithinTheVisibleSide) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page to turn, in headless Chromium where there is one."""
+import json
 import os
 import shutil
 import subprocess
@@ -65,6 +66,19 @@ def test_the_page_shows_the_model_and_a_click_takes_a_part_away(model, tmp_path)
     # blue is the first part's
     blue = [((p[:560, 260:, 2] - p[:560, 260:, 0]) > 60).sum() for p in (everything, without)]
     assert blue[0] > 2000 and blue[1] < 0.2 * blue[0], blue
+
+
+def test_a_click_takes_a_thing_of_a_scene_away(tmp_path):
+    things = [pcl_sq.Superquadric([0.04, 0.04, 0.06], epsilon=(0.2, 1.0), center=[x, 0, 0.7])
+              for x in (-0.06, 0.06)]
+    contents = {"schema": "pcl_sq/scene", "version": 1, "unit": "m", "objects": [
+        json.loads(pcl_sq.Model.from_parts([t]).to_json()) for t in things]}
+    page = pcl_sq.Scene.from_json(json.dumps(contents)).to_html("two")
+    for name in "ab":
+        os.makedirs(tmp_path / name)
+    both = screenshot(page, tmp_path / "a")
+    one = screenshot(page, tmp_path / "b", "document.getElementById('show_thing_2').click();")
+    assert painted(both) > 3000 and painted(one) < 0.7 * painted(both)
 
 
 def test_the_pointer_over_a_part_tells_its_size(model, tmp_path):

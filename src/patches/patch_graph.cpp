@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "patches/patch_graph.h"
+
+#include "sensor/observation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_sq::detail {
+
+namespace {
+
+constexpr double JUMPS = 0.5;       ///< of a border, at which it is an edge in depth
+constexpr int LEAST_BORDER = 3;     ///< pairs of pixels that make a contact
+constexpr double CORRELATION = 7.0; ///< pixels that share their errors
+constexpr double WIDE = 0.5;        ///< of a patch's width, where its surface goes on
+constexpr double STANDS = 3.0; ///< standing heights: lower, and it reaches the table
+/** \brief Of a carrying thing's pixels, that show the face on which another stands, and
+ * standing heights within which that is level. */
+constexpr double LEDGE = 0.15, LEVEL = 2.0;
+constexpr double AS_LARGE = 0.5; ///< over the carrying thing's pixels
+constexpr double NEAR = 0.5;     ///< of the larger thing's size: belongs to it
+
+} // namespace
+
+bool PatchGraph::stands(const Patch& p) const {
+  return p.low < STANDS * standingHeight(view_.table, p.sums.mean().z());
+}
+
+bool PatchGraph::touches(const Border& border) {
+  return border.pairs >= LEAST_BORDER && border.jumps < JUMPS * border.pairs;
+}
+
+void PatchGraph::join(int from, int into) {
+  Patch& a = list_[std::size_t(into)];
+  Patch& b = list_[std::size_t(from)];
+  a.pixels.insert(a.pixels.end(), b.pixels.begin(), b.pixels.end());
+  a.sums.add(b.sums);
+  a.low = std::min(a.low, b.low);
+  a.high = std::max(a.high, b.high);
+  b.pixels.clear();
+  std::map<std::pair<int, int>, Border> borders;
+  for (const auto& [pair, border] : borders_) {
+    const int i = pair.first == from ? into : pair.first;
+    const int j = pair.second == from ? into : pair.second;
+    if (i == j)
+      continue;
+    borders[std::minmax(i, j)].add(border);
+  }
+  borders_.swap(borders);
+}
+
+bool PatchGraph::sameColor(int a, int b, double limit) const {
+  return colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums) < limit;
+}
+
+double PatchGraph::offset(int a, int b) const {
+  const Footprint fa = footprintOf(view_.table, list_[std::size_t(a)]);
+  const Footprint fb = footprintOf(view_.table, list_[std::size_t(b)]);
+  return (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
+}
+
+bool PatchGraph::isWide(std::pair<int, int> pair, const Border& border) const {
+  const std::size_t least = std::min(list_[std::size_t(pair.first)].pixels.size(),
+                                     list_[std::size_t(pair.second)].pixels.size());
+  return double(border.pairs - border.jumps) > WIDE * std::sqrt(double(least));
+}
+
+double PatchGraph::flush(std::pair<int, int> pair) const {
+  const auto found = borders_.find(pair);
+  if (found == borders_.end())
+    return 0.0;
+  const Border& border = found->second;
+  if (!touches(border) || !isWide(pair, border) || border.meanFold() >= CREASE)
+    return 0.0;
+  return 2.0 * std::log(0.5 * M_PI / CREASE) * (border.pairs - border.jumps) /
+         CORRELATION;
+}
+
+bool PatchGraph::isCarried(int a) const {
+  const Patch& thing = list_[std::size_t(a)];
+  if (thing.pixels.size() < SCRAP || isThin(thing.pixels, view_.width, view_.height))
+    return false;
+  const double slack = LEVEL * standingHeight(view_.table, thing.sums.mean().z());
+  for (int b = 0; b < int(list_.size()); ++b) {
+    const auto border = borders_.find(std::minmax(a, b));
+    if (b == a || !alive(b) || border == borders_.end() || !touches(border->second) ||
+        (view_.colors.cols() > 0 && sameColor(a, b)))
+      continue;
+    const std::vector<int>& pixels = list_[std::size_t(b)].pixels;
+    const auto level = std::count_if(pixels.begin(), pixels.end(), [&](int c) {
+      return std::abs(view_.table.height(view_.at(c)) - thing.low) < slack;
+    });
+    if (double(level) > std::max(double(SCRAP), LEDGE * double(pixels.size())) ||
+        double(thing.pixels.size()) > AS_LARGE * double(pixels.size()))
+      return true;
+  }
+  return false;
+}
+
+bool PatchGraph::isHiddenBelow(int a) const {
+  const Patch& thing = list_[std::size_t(a)];
+  for (const auto& [pair, border] : borders_) {
+    if ((pair.first != a && pair.second != a) || touches(border) ||
+        border.pairs < LEAST_BORDER || thing.pixels.size() < SCRAP)
+      continue;
+    const int b = pair.first == a ? pair.second : pair.first;
+    const Patch& other = list_[std::size_t(b)];
+    if (alive(b) && stands(other) && !sameColor(a, b) &&
+        other.sums.mean().z() < thing.sums.mean().z())
+      return view_.colors.cols() > 0;
+  }
+  return false;
+}
+
+double PatchGraph::apart(int a, int b) const {
+  const auto border = borders_.find(std::minmax(a, b));
+  const double color =
+      colorDistance(list_[std::size_t(a)].sums, list_[std::size_t(b)].sums);
+  if (border != borders_.end() && touches(border->second))
+    return 0.1 * color / double(border->second.pairs);
+  const double gap = offset(a, b);
+  if (color > SAME_COLOR || gap > 1.0 + NEAR)
+    return 1e300;
+  return 1.0 + gap + color;
+}
+
+} // namespace pcl_sq::detail
