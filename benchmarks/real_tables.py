@@ -7,7 +7,7 @@ usage: real_tables.py DATA RESULTS
 DATA is that of real_pairs.py, with disp0.pfm in the folders whose disparity is known;
 RESULTS the folder that real_pairs.py --out left. Planes of the true cloud around each
 thing are found by RANSAC (tolerance 0.6 % of the depth); those that may be its table face
-up, hold a twentieth of the points there, and the thing stands on them or up to a quarter
+up, hold one in thirty of the points there, and the thing stands on them or up to a quarter
 of its size above. Printed is the one nearest to the table that was found: the angle between
 the two [deg], and their distance below the thing [mm]. Where no such plane is near, a
 table is printed as "no such plane"; a plane without a table as "not found".
@@ -55,12 +55,12 @@ def plane_through(points):
 def planes(points, tolerance, dice):
     """Normal, offset and share of the points of the largest planes, one after the other."""
     rest = points
-    for _ in range(6):
-        if len(rest) < max(200, 0.05 * len(points)):
+    for _ in range(8):
+        if len(rest) < max(200, 0.03 * len(points)):
             return
         sample = rest[dice.integers(0, len(rest), 1500)]
         best, most = None, 0
-        for _ in range(500):
+        for _ in range(3000):
             a, b, c = rest[dice.integers(0, len(rest), 3)]
             normal = np.cross(b - a, c - a)
             length = np.linalg.norm(normal)
@@ -95,7 +95,7 @@ def compare(cloud, mask, box, table, dice):
     for normal, offset, share in planes(cloud[around(mask, box) & known],
                                         TOLERANCE * depth, dice):
         low = np.percentile(thing @ normal + offset, 2)
-        if share < 0.05 or -normal[1] < UPRIGHT or not -0.03 < low < 0.25 * size:
+        if share < 0.03 or -normal[1] < UPRIGHT or not -0.03 < low < 0.25 * size:
             continue
         if table is None:
             return "not found: a plane with %.0f %% of what is around" % (100 * share)
@@ -120,7 +120,8 @@ def main():
             rows = list(csv.reader(f))[1:]
         for name, *box in (row[:5] for row in rows):
             stem = results / f"{folder.name}_{name}"
-            if not stem.with_suffix(".json").exists():
+            if not stem.with_suffix(".json").exists() or \
+                    not pathlib.Path(f"{stem}_mask.png").exists():
                 continue
             table = json.loads(stem.with_suffix(".json").read_text()).get("table")
             mask = np.array(Image.open(f"{stem}_mask.png").convert("L")) > 127

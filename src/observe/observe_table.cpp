@@ -196,8 +196,6 @@ supportOf(const Observation& o, const Surroundings& around, const TableModel& pl
 void settle(const std::vector<Eigen::Vector3d>& points,
             double noise,
             TableModel& plane) {
-  constexpr int ROUNDS = 5;
-  constexpr double SIGMAS = 2.5;
   TableModel largest;
   if (findPlane(points, noise, {}, largest))
     plane = largest.normal.dot(plane.normal) < 0.0 ? flipped(largest) : largest;

@@ -106,6 +106,10 @@ inline constexpr std::size_t FEWEST_OF_SECTOR = 3;
 /// [1] of the directions that tell, in which the table goes on: a thing may stand at
 /// its edge; geometry: a straight edge takes a third
 inline constexpr double CARRIED = 2.0 / 3.0;
+/// [rounds] of settling on the plane of most of its points; budget
+inline constexpr int ROUNDS = 5;
+/// [sigma] from which on a point is not that plane's; Gauss: 1e-2
+inline constexpr double SIGMAS = 2.5;
 } // namespace observe_table
 
 namespace point_spread {
