@@ -36,12 +36,12 @@ bool inParts(const Line& line) {
 }
 
 /** \brief Where one of the options is given. */
-std::function<bool(const Line&)> with(OptionList options) {
+std::function<bool(const Line&)> with(const OptionList& options) {
   return [options](const Line& line) { return isAny(line, options); };
 }
 
 /** \brief Where none of the options is given. */
-std::function<bool(const Line&)> without(OptionList options) {
+std::function<bool(const Line&)> without(const OptionList& options) {
   return [options](const Line& line) { return !isAny(line, options); };
 }
 

@@ -74,4 +74,11 @@ private:
  * fattens the nearer one; shadows of occlusion lie on one side alone. */
 [[nodiscard]] double missingEdge(const Observation& o);
 
+/** \brief How far each point's surface moves along its normal when the measurement
+ * belongs a pixel beside the point's own [m]. */
+Eigen::VectorXf lateralNoise(const Observation& o, const DepthPatch& patch);
+
+/** \brief How many points share one error: 1 where neighbours err independently. */
+double sharingOfErrors(const Eigen::Matrix3Xd& points);
+
 } // namespace pcl_sq::detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/** \file What view_tuning.h says of the fits, for cuts, handles, parts and the verdict. */
+/** \file What view_tuning.h says of the fits, for cuts, handles, parts and the verdict.
+ */
 
 #include "tuning/view_tuning.h"
 

@@ -2,13 +2,15 @@
 #pragma once
 
 /** \file
- * The numbers of the single-view method: what they mean, [unit], and after the semicolon
- * where they come from. "odds" are priors, -2 ln of
- * them; "budget" buys time and no accuracy; "chosen" ones were set on rendered scenes. A size is the deviation of the points, or what the line names. A group
- * is named after the file that uses it, or after what several files share.
+ * The numbers of the single-view method: what they mean, [unit], and after the
+ * semicolon where they come from. "odds" are priors, -2 ln of them; "budget" buys time
+ * and no accuracy; "chosen" ones were set on rendered scenes. A size is the deviation
+ * of the points, or what the line names. A group is named after the file that uses it,
+ * or after what several files share.
  *
- * Range: from half to twice its value a number moves the mean IoU of no set by more than
- * the table in benchmarks/README.md says, which benchmarks/sensitivity.py makes. */
+ * Range: from half to twice its value a number moves the mean IoU of no set by more
+ * than the table in benchmarks/README.md says, which benchmarks/sensitivity.py makes.
+ */
 
 #include <cstddef>
 
