@@ -87,11 +87,7 @@ PanelInput panelInput(const StereoView& front,
   in.rect = front.rect;
   in.histogram = front.histogram;
   in.disparity_scale = front.stereo.intrinsics.fx * front.stereo.intrinsics.baseline;
-  const CameraIntrinsics& k = front.stereo.intrinsics;
-  in.camera.fx = k.fx;
-  in.camera.fy = k.fy;
-  in.camera.cx = k.cx;
-  in.camera.cy = k.cy;
+  static_cast<CameraIntrinsics&>(in.camera) = front.stereo.intrinsics;
   in.region = front.region;
   in.cloud = scene.cloud;
   in.object = object.cloud;

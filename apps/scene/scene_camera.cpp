@@ -22,7 +22,7 @@ Eigen::Matrix3d smallRotation(double x, double y, double z) {
 } // namespace
 
 Eigen::Vector3d SceneCamera::ray(double u, double v) const {
-  const Eigen::Vector2d seen((u - cx) / fx, (v - cy) / fy);
+  const Eigen::Vector2d seen = backProject(u, v, 1.0).head<2>();
   Eigen::Vector2d p = seen;
   if (distortion != std::array<double, 5>{})
     for (int i = 0; i < 20; ++i) // fixed point; contracts for moderate lenses
@@ -33,7 +33,7 @@ Eigen::Vector3d SceneCamera::ray(double u, double v) const {
 Eigen::Vector2d SceneCamera::project(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d c = rotation * (point - position);
   const Eigen::Vector2d p = distort(c.head<2>() / c.z(), distortion);
-  return {fx * p.x() + cx, fy * p.y() + cy};
+  return CameraIntrinsics::project({p.x(), p.y(), 1.0});
 }
 
 StereoRig makeRig(int width, int height, double focal_length, double baseline) {

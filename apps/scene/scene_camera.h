@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/camera.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -8,9 +10,7 @@
 namespace pcl_sq::app {
 
 /** \brief A camera of the rig, with OpenCV's lens model (k1 k2 p1 p2 k3). */
-struct SceneCamera {
-  int width = 0, height = 0;
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+struct SceneCamera : CameraIntrinsics {
   std::array<double, 5> distortion{};                     ///< k1 k2 p1 p2 k3
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< rig to camera
   Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< in the rig's frame [m]

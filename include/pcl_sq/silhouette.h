@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/camera.h"
 #include "pcl_sq/cell_mask.h"
 #include "pcl_sq/tangent_plane.h"
 
@@ -8,32 +9,6 @@
 #include <vector>
 
 namespace pcl_sq {
-
-/** \brief A pinhole camera: pixel = (fx X / Z + cx, fy Y / Z + cy), pixel centres at
- * whole numbers, x to the right, y down, z forward. */
-struct PCL_SQ_EXPORTS PinholeCamera {
-  double fx = 0.0, fy = 0.0;                        ///< focal lengths [px], positive
-  double cx = 0.0, cy = 0.0;                        ///< principal point [px]
-  Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the cloud's frame [m]
-  /** \brief Columns: the camera's axes in the cloud's frame. */
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-
-  /** \brief Whether the focal lengths are positive and all numbers finite.
-   * \param[out] why the first violation as a sentence (optional) */
-  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
-  /** \brief Depth of a point along the optical axis [m]. */
-  double depthOf(const Eigen::Vector3d& point) const {
-    return rotation.col(2).dot(point - center);
-  }
-  /** \brief The point's pixel; meaningful for a positive depth only. */
-  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
-  /** \brief Unit direction of a pixel's viewing ray in the cloud's frame. */
-  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
-  /** \brief A camera at \a center that looks at \a target. */
-  static PinholeCamera lookingAt(const Eigen::Vector3d& center,
-                                 const Eigen::Vector3d& target,
-                                 double focal_length);
-};
 
 /** \brief A point of an object's outline in the image. */
 struct ContourPoint {

@@ -5,7 +5,7 @@
 #include "observe/point_spread.h"
 #include "observe/sheets.h"
 #include "sensor/camera_pose.h"
-#include "sensor/noise.h"
+#include "sensor/depth_patch.h"
 #include "tuning/observe_tuning.h"
 
 #include <algorithm>

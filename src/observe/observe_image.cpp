@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An object in an organized cloud: its pixels, outline, points and table.
 #include "observe/observe_parts.h"
-#include "sensor/noise.h"
+#include "sensor/depth_patch.h"
 #include "table/table_search.h"
 #include "tuning/observe_tuning.h"
 

@@ -2,7 +2,6 @@
 // What an object is seen against: what hides it (M26) and what is seen past it.
 #include "observe/observe_parts.h"
 #include "sensor/depth_patch.h"
-#include "sensor/noise.h"
 #include "tuning/observe_tuning.h"
 #include "util/order_statistic.h"
 

@@ -15,43 +15,6 @@ cross(const Eigen::Vector2d& o, const Eigen::Vector2d& a, const Eigen::Vector2d&
 
 } // namespace
 
-bool PinholeCamera::isValid(std::string* why) const {
-  const char* reason = nullptr;
-  if (!(fx > 0.0 && fy > 0.0) || !std::isfinite(fx) || !std::isfinite(fy))
-    reason = "the focal lengths must be positive and finite";
-  else if (!std::isfinite(cx) || !std::isfinite(cy))
-    reason = "the principal point must be finite";
-  else if (!center.allFinite() || !rotation.allFinite())
-    reason = "the camera's pose must be finite";
-  if (reason && why)
-    *why = reason;
-  return !reason;
-}
-
-Eigen::Vector2d PinholeCamera::project(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d p = rotation.transpose() * (point - center);
-  return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
-}
-
-Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector3d d((pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0);
-  return rotation * d.normalized();
-}
-
-PinholeCamera PinholeCamera::lookingAt(const Eigen::Vector3d& center,
-                                       const Eigen::Vector3d& target,
-                                       double focal_length) {
-  PinholeCamera camera;
-  camera.fx = camera.fy = focal_length;
-  camera.center = center;
-  const Eigen::Vector3d forward = (target - center).normalized();
-  const Eigen::Vector3d right = forward.unitOrthogonal();
-  camera.rotation.col(0) = right;
-  camera.rotation.col(1) = forward.cross(right);
-  camera.rotation.col(2) = forward;
-  return camera;
-}
-
 std::vector<ContourPoint> contourOf(const CellMask& mask,
                                     const std::function<bool(int x, int y)>& foreign) {
   std::vector<ContourPoint> contour;

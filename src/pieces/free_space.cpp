@@ -4,7 +4,7 @@
 #include "pcl_sq/line_intersection.h"
 #include "pieces/body_outline.h"
 #include "pieces/piece_outline.h"
-#include "sensor/noise.h"
+#include "sensor/depth_patch.h"
 #include "tuning/parts_tuning.h"
 #include "view_problem/plane_cost.h"
 

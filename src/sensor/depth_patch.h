@@ -74,4 +74,15 @@ private:
  * fattens the nearer one; shadows of occlusion lie on one side alone. */
 [[nodiscard]] double missingEdge(const Observation& o);
 
+/** \brief How far each point's surface moves along its normal when the measurement
+ * belongs a pixel beside the point's own [m]. */
+Eigen::VectorXf lateralNoise(const Observation& o, const DepthPatch& patch);
+
+/** \brief How many points share one error: 1 where neighbours err independently. */
+double sharingOfErrors(const Eigen::Matrix3Xd& points);
+
+/** \brief Pixels of a mask's outline that err alike: hands, nets and graph cuts smooth
+ * over about as many. */
+constexpr double OUTLINE_CORRELATION = 7.0;
+
 } // namespace pcl_sq::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether neighbours err together, as the points of one depth image do: matching
 // windows overlap, depth cameras smooth.
+#include "sensor/depth_patch.h"
 #include "sensor/local_quadric.h"
-#include "sensor/noise.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a measurement that belongs beside its pixel costs where the surface is slanted.
-#include "sensor/noise.h"
+#include "sensor/depth_patch.h"
 
 #include <cmath>
 

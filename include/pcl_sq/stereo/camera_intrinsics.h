@@ -1,32 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_sq/exports.h"
-
-#include <Eigen/Core>
+#include "pcl_sq/camera.h"
 
 #include <string>
 
 namespace pcl_sq {
-
-/** \brief Pinhole camera; x right, y down, z forward. Pixel centres lie on integers. */
-struct PCL_SQ_EXPORTS CameraIntrinsics {
-  int width = 0, height = 0; ///< image size [px], 0 = unknown
-  double fx = 0.0, fy = 0.0; ///< focal lengths [px], positive
-  double cx = 0.0, cy = 0.0; ///< principal point [px]
-
-  /** \brief The point at depth \a z [m] seen by pixel (u, v). */
-  Eigen::Vector3d backProject(double u, double v, double z) const {
-    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
-  }
-  /** \brief Pixel of a point in front of the camera. */
-  Eigen::Vector2d project(const Eigen::Vector3d& p) const {
-    return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
-  }
-  /** \brief Whether the numbers are finite, the focal lengths positive and the
-   * principal point is near the image. \param[out] why the first violation */
-  [[nodiscard]] bool isValid(std::string* why = nullptr) const;
-};
 
 /** \brief A rectified pair: the left camera and what turns disparity into depth. */
 struct PCL_SQ_EXPORTS StereoIntrinsics : CameraIntrinsics {

@@ -30,13 +30,7 @@ void tellView(const StereoView& view, bool painted, ViewOptions& options) {
   // noise and dilation of an outline that was found: images are cut along edges that
   // are blurred over about three pixels
   constexpr double FOUND_OUTLINE = 1.5, FOUND_DILATION = 1.0;
-  const CameraIntrinsics& k = view.stereo.intrinsics;
-  PinholeCamera camera;
-  camera.fx = k.fx;
-  camera.fy = k.fy;
-  camera.cx = k.cx;
-  camera.cy = k.cy;
-  options.camera = camera;
+  options.camera = PinholeCamera{view.stereo.intrinsics};
   tellNoise(view.stereo, options);
   if (!painted) {
     options.mask_sigma = FOUND_OUTLINE;
