@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/camera.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace pcl_sq {
