@@ -65,7 +65,7 @@ for file in "$(package 'libpcl-sq-visualization[0-9]*') $lib/libpcl_sq_visualiza
   "$(package 'libpcl-sq-stereo[0-9]*') $lib/libpcl_sq_stereo.so" \
   "$(package pcl-sq-apps) usr/bin/pcl_sq_fit"; do
   dpkg-deb --fsys-tarfile "${file% *}" | tar -xO --wildcards "./${file#* }*" |
-    grep -aq "/$lib/pcl_sq-" || fail "${file#* } does not find its plug-ins"
+    grep -a "/$lib/pcl_sq-" >/dev/null || fail "${file#* } does not find its plug-ins"
 done
 # what policy asks of every package, and of the programs' man pages and completion
 programs=$(cd apps && ls pcl_sq_*.cpp)

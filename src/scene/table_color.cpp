@@ -162,6 +162,30 @@ void TableColor::removeHalo(CellMask& pixels) const {
       pixels.cells[c] = 0;
 }
 
+/** \brief Whether what stands over a low pixel was left out, such as a wall: its foot
+ * is no other thing's. */
+bool TableColor::isFootOfOther(const LabelImage& labels, int x, int y) const {
+  const int foot = y * view_.width + x;
+  if (!view_.finite(foot))
+    return false;
+  const double z = double(view_.points(2, foot));
+  const int highest =
+      1 + int(2.0 * HIGHEST * standingHeight(view_.table, z) * view_.camera.fy / z);
+  for (int v = y - 1; v >= std::max(0, y - highest); --v) {
+    const int c = v * view_.width + x;
+    if (labels.values[std::size_t(c)] > 0)
+      return false;
+    if (view_.finite(c) && !isLow(c))
+      return view_.table.height(view_.at(c)) > 0.0;
+  }
+  return false;
+}
+
+bool TableColor::isLow(int c) const {
+  return std::abs(view_.table.height(view_.at(c))) <
+         HIGHEST * standingHeight(view_.table, double(view_.points(2, c)));
+}
+
 void TableColor::growFeet(LabelImage& labels) const {
   if (cells_.empty())
     return;
@@ -186,15 +210,12 @@ void TableColor::growFeet(LabelImage& labels) const {
         continue;
       const int c = v * w + u;
       const int missing = view_.finite(c) ? 0 : step.missing + 1;
-      const bool level =
-          missing > 0
-              ? missing <= MISSING
-              : std::abs(view_.table.height(view_.at(c))) <
-                    HIGHEST * standingHeight(view_.table, double(view_.points(2, c)));
+      const bool level = missing > 0 ? missing <= MISSING : isLow(c);
       const Eigen::Vector4f shade = shadeAt(u, v);
       const float from_table = hueDistance(shade, near(u, v));
       if (!level || from_table < LIKE_TABLE ||
-          hueDistance(shade, step.shade) > CLEARLY * from_table)
+          hueDistance(shade, step.shade) > CLEARLY * from_table ||
+          isFootOfOther(labels, u, v))
         continue;
       labels.values[std::size_t(c)] = labels.values[std::size_t(step.pixel)];
       steps.push_back({c, step.shade, missing});

@@ -34,6 +34,9 @@ private:
   /** \brief Mean colour of a pixel and its neighbours. */
   Eigen::Vector4f shadeAt(int x, int y) const;
   Eigen::Vector4f near(int x, int y) const;
+  /** \brief Whether a pixel with depth is at the height of the table. */
+  bool isLow(int pixel) const;
+  bool isFootOfOther(const LabelImage& labels, int x, int y) const;
 
   const SceneView& view_;
   int columns_ = 0, rows_ = 0;

@@ -42,6 +42,24 @@ TEST(SceneTable, WhatTouchesAWallThatTheImageCutsIsAThing) {
   EXPECT_NEAR(scene.objects[0].model.boundingBox().sizes().x(), 0.066, 0.01);
 }
 
+TEST(SceneTable, TheFootOfAWallThatIsLeftOutIsNoThings) {
+  TableScene truth = fineScene();
+  truth.stand({0.0, 0.12}, {0.6, 0.02, 0.2}, 0.1, 0.1).can({0.0, 0.02});
+  const auto cloud = cloudOf(truth, truth.inCamera(), true);
+  const LabelImage labels = truthOf(truth);
+  for (std::size_t c = 2; c + 2 < labels.values.size(); ++c)
+    if (labels.values[c] == 2 &&
+        (labels.values[c - 2] == 1 || labels.values[c + 2] == 1))
+      (*cloud)[c].rgba = (*cloud)[c + (labels.values[c - 2] == 1 ? -2 : 2)].rgba;
+  const Scene scene = estimate(cloud);
+  ASSERT_EQ(scene.objects.size(), 1u) << scene.failure;
+  int wall = 0, own = 0;
+  for (std::size_t c = 0; c < labels.values.size(); ++c)
+    if (scene.labels.values[c] > 0)
+      ++(labels.values[c] == 1 ? wall : own);
+  EXPECT_LT(wall, own / 50);
+}
+
 TEST(SceneTable, WhatHasTheTablesColorBesideAThingIsTheSensorsHalo) {
   TableScene truth = fineScene();
   truth.can({0.0, 0.02});
