@@ -10,16 +10,24 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int STEPS = 40;         ///< of a meridian's curve
-constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
+constexpr int REFINEMENTS = 3;    ///< of the nearest chord
+constexpr double SHORTER = 0.25;  ///< half of a refined chord, over the last one's
 constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
+
+/** \brief Where the line through two points comes nearest to a third: 0 at the first, 1
+ * at the second. */
+double footOnLine(const Eigen::Vector2d& p,
+                  const Eigen::Vector2d& a,
+                  const Eigen::Vector2d& b) {
+  const Eigen::Vector2d side = b - a;
+  return (p - a).dot(side) / std::max(side.squaredNorm(), 1e-300);
+}
 
 double toSegment(const Eigen::Vector2d& p,
                  const Eigen::Vector2d& a,
                  const Eigen::Vector2d& b) {
-  const Eigen::Vector2d side = b - a;
-  const double length = std::max(side.squaredNorm(), 1e-300);
-  const double t = std::clamp((p - a).dot(side) / length, 0.0, 1.0);
-  return (p - a - t * side).norm();
+  const double t = std::clamp(footOnLine(p, a, b), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
 }
 
 bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
@@ -90,6 +98,8 @@ void Meridian::addCurve(double inset, double low, double high) {
                     c.points[i],
                     c.points[i + 1]));
     c.miss = std::max(c.miss, miss);
+    c.inverse_squares.push_back(
+        1.0 / std::max((c.points[i + 1] - c.points[i]).squaredNorm(), 1e-300));
     c.straight.push_back(miss < STRAIGHT * s_.semi_axes.maxCoeff());
   }
   curves_.push_back(std::move(c));
@@ -97,42 +107,39 @@ void Meridian::addCurve(double inset, double low, double high) {
 
 double
 Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) const {
-  double nearest = 1e300;
+  double least = 1e300;
   std::size_t chord = 0;
   for (std::size_t i = 0; i < STEPS; ++i) {
-    const double d = toSegment(p, c.points[i], c.points[i + 1]);
-    if (d < nearest) {
-      nearest = d;
+    const Eigen::Vector2d to = p - c.points[i], side = c.points[i + 1] - c.points[i];
+    const double t = std::clamp(to.dot(side) * c.inverse_squares[i], 0.0, 1.0);
+    const double square = (to - t * side).squaredNorm();
+    if (square < least) {
+      least = square;
       chord = i;
     }
   }
+  double nearest = std::sqrt(least);
   if (c.straight[chord] || nearest - 2.0 * c.miss > enough)
     return nearest;
-  constexpr double GOLDEN = 0.6180339887498949;
-  const auto square = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
-  double low = c.places[chord], high = c.places[chord + 1];
-  if (chord > 0) // the curve's foot may lie beside the chord's
-    low = 0.5 * (low + c.places[chord - 1]);
-  if (chord + 2 < c.places.size())
-    high = 0.5 * (high + c.places[chord + 2]);
-  double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
-  double at_left = square(left), at_right = square(right);
-  for (int i = 0; i < REFINEMENTS; ++i)
-    if (at_left < at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      at_left = square(left = high - GOLDEN * (high - low));
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      at_right = square(right = low + GOLDEN * (high - low));
-    }
-  return std::sqrt(std::min({at_left,
-                             at_right,
-                             (p - c.points[chord]).squaredNorm(),
-                             (p - c.points[chord + 1]).squaredNorm()}));
+  // a shorter chord about the foot misses the curve by the square of that less; its
+  // ends may lie beyond those of the chord, for there may be the curve's foot
+  const Eigen::Vector2d &a = c.points[chord], &b = c.points[chord + 1];
+  double half = c.places[chord + 1] - c.places[chord];
+  double foot = c.places[chord] + std::clamp(footOnLine(p, a, b), 0.0, 1.0) * half;
+  nearest = std::min((p - a).norm(), (p - b).norm());
+  for (int i = 0; i < REFINEMENTS; ++i) {
+    half *= SHORTER;
+    const double low = std::max(foot - half, c.places.front()),
+                 high = std::min(foot + half, c.places.back());
+    const Eigen::Vector2d from = at(low, c.inset), to = at(high, c.inset);
+    if (i + 1 == REFINEMENTS)
+      return std::min(nearest, toSegment(p, from, to));
+    foot =
+        std::clamp(low + std::clamp(footOnLine(p, from, to), -1.0, 2.0) * (high - low),
+                   c.places.front(),
+                   c.places.back());
+  }
+  return nearest;
 }
 
 double Meridian::distance(double rho, double z) const {

@@ -60,6 +60,7 @@ private:
     double inset = 0.0;
     std::vector<double> places;          ///< s
     std::vector<Eigen::Vector2d> points; ///< rho, z
+    std::vector<double> inverse_squares; ///< of the chords' lengths [1/m^2]
     std::vector<bool> straight;          ///< whether the chord is as good as the curve
     double miss = 0.0;                   ///< by how much any chord misses the curve
   };

@@ -160,6 +160,10 @@ void residualsOf(const Superquadric& s,
     openResiduals(s, points, residual, out);
     return;
   }
+  if (!s.isBent() && residual == kernels::Residual::FOOT_POINT) {
+    kernels::kernels().taperedResiduals(points.view(), toShape(s), out);
+    return;
+  }
   for (std::size_t i = 0; i < points.size(); ++i)
     out[i] = static_cast<float>(residualAt(s, points[i].cast<double>(), residual));
 }

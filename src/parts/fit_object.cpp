@@ -167,7 +167,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                 : noiseOf(sheetsOf(observed.points,
                                    std::max<Eigen::Index>(
                                        1, observed.points.cols() / NOISE_SAMPLES)));
-  PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
+  PieceContext context{
+      observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0       ? options.parts
                      : options.max_parts > 0 ? options.max_parts

@@ -73,12 +73,15 @@ void fitPiece(const PieceContext& context,
   // from a wrong place the far side of a solid is its inside
   if (o.hasCamera() && !o.viewpoint_known && !piece.ends.empty())
     options.vessel = false;
+  options.bend = options.bend && effort != Effort::TRIED;
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;
   if (effort == Effort::QUICK)
     options.starts = QUICK_STARTS;
-  if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
+  const bool goes_on =
+      effort == Effort::AGAIN || effort == Effort::TRIED || effort == Effort::FINAL;
+  if (goes_on && piece.fit.fit.ok())
     options.start = piece.fit.straight().model;
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),

@@ -85,8 +85,8 @@ double missedPixels(const PieceContext& context,
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
   const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
   const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / INSIDE);
-  const double weight =
-      std::min(1.0, double(stride) * std::pow(pixelStep(o) / OUTLINE_CORRELATION, 2));
+  const double weight = std::min(
+      1.0, double(stride) * std::pow(context.pixel_step / OUTLINE_CORRELATION, 2));
   const BodyOutline outline(body, o.camera.center, OUTLINE_PLANES);
   const BesideJoints beside(o, piece, halfSize(context, piece));
   double cost = 0.0;
