@@ -9,10 +9,12 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int STEPS = 40;         ///< of a meridian's curve
-constexpr int REFINEMENTS = 3;    ///< of the nearest chord
-constexpr double SHORTER = 0.25;  ///< half of a refined chord, over the last one's
-constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
+constexpr int STEPS = 40;           ///< of a meridian's curve
+constexpr int REFINEMENTS = 3;      ///< of the nearest chord
+constexpr double SHORTER = 0.25;    ///< half of a refined chord, over the last one's
+constexpr int FAR_REFINEMENTS = 7;  ///< for places farther than a chord is long: the
+constexpr double FAR_SHORTER = 0.5; ///< curve turns their foot away from the chord's
+constexpr double STRAIGHT = 1e-5;   ///< of the body's size that a chord may miss
 
 /** \brief Where the line through two points comes nearest to a third: 0 at the first, 1
  * at the second. */
@@ -126,13 +128,15 @@ Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) co
   const Eigen::Vector2d &a = c.points[chord], &b = c.points[chord + 1];
   double half = c.places[chord + 1] - c.places[chord];
   double foot = c.places[chord] + std::clamp(footOnLine(p, a, b), 0.0, 1.0) * half;
+  const bool is_far = nearest > (b - a).norm();
+  const int refinements = is_far ? FAR_REFINEMENTS : REFINEMENTS;
   nearest = std::min((p - a).norm(), (p - b).norm());
-  for (int i = 0; i < REFINEMENTS; ++i) {
-    half *= SHORTER;
+  for (int i = 0; i < refinements; ++i) {
+    half *= is_far ? FAR_SHORTER : SHORTER;
     const double low = std::max(foot - half, c.places.front()),
                  high = std::min(foot + half, c.places.back());
     const Eigen::Vector2d from = at(low, c.inset), to = at(high, c.inset);
-    if (i + 1 == REFINEMENTS)
+    if (i + 1 == refinements)
       return std::min(nearest, toSegment(p, from, to));
     foot =
         std::clamp(low + std::clamp(footOnLine(p, from, to), -1.0, 2.0) * (high - low),

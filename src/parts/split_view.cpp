@@ -51,8 +51,8 @@ bool betterSplit(const Split& a, const Split& b) {
 }
 
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
-  fitPiece(context, s.first, Effort::TRIED, axis);
-  fitPiece(context, s.second, Effort::TRIED, axis ? axis : axisOf(s.first));
+  fitPiece(context, s.first, Effort::STRAIGHT, axis);
+  fitPiece(context, s.second, Effort::STRAIGHT, axis ? axis : axisOf(s.first));
   s.score = s.first.score + s.second.score;
 }
 
@@ -86,6 +86,23 @@ void keepPromising(std::vector<Split>& splits, double limit) {
                      QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
   while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
     splits.pop_back();
+}
+
+/** \brief Fits the two parts of a cut with more families than before, and takes what
+ * explains them better. */
+void fitBetter(const PieceContext& context,
+               Split& s,
+               Effort effort,
+               const Superquadric* axis) {
+  const auto again = [&](Piece& piece, const Superquadric* shared) {
+    Piece next = piece;
+    fitPiece(context, next, effort, shared);
+    if (next.score < piece.score)
+      piece = std::move(next);
+  };
+  again(s.first, axis);
+  again(s.second, axis ? axis : axisOf(s.first));
+  s.score = unbent(s.first) + unbent(s.second);
 }
 
 /** \brief Whether a piece's model is a body: splinters thinner than the noise and
@@ -127,21 +144,9 @@ Split bestSplit(const PieceContext& context,
     if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
         (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
+  if (!best.final && best.score < 1e299)
+    fitBetter(context, best, Effort::UNBENT, axis);
   return best;
-}
-
-/** \brief Tries bends as well, once a cut is taken. */
-void bendParts(const PieceContext& context, Split& s, const Superquadric* axis) {
-  if (s.final)
-    return;
-  const auto again = [&](Piece& piece, const Superquadric* shared) {
-    Piece next = piece;
-    fitPiece(context, next, Effort::AGAIN, shared);
-    if (next.score < piece.score)
-      piece = std::move(next);
-  };
-  again(s.first, axis);
-  again(s.second, axis ? axis : axisOf(s.first));
 }
 
 /** \brief A piece that was cut, and where its two parts are. */
@@ -266,7 +271,8 @@ void splitView(const PieceContext& context,
     }
     if (best.score > 1e299)
       break;
-    bendParts(context, best, axisFor(which));
+    if (!best.final)
+      fitBetter(context, best, Effort::AGAIN, axisFor(which));
     partings.push_back({pieces[which], which, pieces.size()});
     pieces[which] = best.first;
     pieces.push_back(best.second);

@@ -87,12 +87,13 @@ double scatter(const PieceContext& context, const Piece& piece);
 void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body);
 
 enum class Effort {
-  QUICK, ///< general shape, few starts
-  START, ///< general shape, all starts: where AGAIN goes on from
-  FULL,  ///< all shapes, all starts
-  AGAIN, ///< all shapes from the last fit
-  TRIED, ///< the same without bends, which cuts are compared without
-  FINAL  ///< the same, and held off the free pixels
+  QUICK,    ///< general shape, few starts
+  START,    ///< general shape, all starts: where AGAIN goes on from
+  FULL,     ///< all shapes, all starts
+  AGAIN,    ///< all shapes from the last fit
+  STRAIGHT, ///< the same without tapers, walls and bends: cuts are ranked by these
+  UNBENT,   ///< the same without bends, which a cut is to pay without
+  FINAL     ///< the same, and held off the free pixels
 };
 
 /** \brief Fits a piece and scores it.
