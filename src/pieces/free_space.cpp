@@ -90,7 +90,7 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
 FreeSpaceCost::FreeSpaceCost(const PieceContext& context, const Piece& piece)
     : context_(context) {
   const ObservedObject& o = context.observed;
-  if (o.outline != OutlineSource::MASK)
+  if (o.outline != OutlineSource::MASK && o.outline != OutlineSource::DEPTH)
     return;
   const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / INSIDE);
   weight_ = std::min(
