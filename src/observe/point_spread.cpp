@@ -25,6 +25,31 @@ double deviation(const std::vector<double>& values) {
   return sum / double(values.size());
 }
 
+/** \brief A direction and how uneven the points' number per pixel is from there. */
+struct Look {
+  Eigen::Vector3d direction;
+  double uneven;
+};
+
+double leastOf(const std::vector<Look>& looks) {
+  double least = 1e300;
+  for (const Look& look : looks)
+    least = std::min(least, look.uneven);
+  return least;
+}
+
+/** \brief The mean of directions by their odds, opposite ones taken as one. Of errors
+ * that fall off exponentially, of unknown size, the odds are a power of the unevenness:
+ * where several directions are nearly as even, the best of them is chance. */
+Eigen::Vector3d likelyAxis(const std::vector<Look>& looks, double independent) {
+  const double least = leastOf(looks);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Look& look : looks)
+    sum += std::pow(least / look.uneven, independent) * look.direction *
+           look.direction.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2);
+}
+
 } // namespace
 
 PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
@@ -45,15 +70,10 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   if (Eigen::Index(patches_.size()) < FEWEST)
     return;
   const double distance = FAR * 0.5 * box.diagonal().norm();
-  Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
-  least_ = 1e300;
+  std::vector<Look> looks;
   const auto look = [&](const Eigen::Vector3d& direction) {
     // the opposite one is as even
-    const double uneven = unevenness(box.center() + distance * direction);
-    if (uneven < least_) {
-      least_ = uneven;
-      best = direction;
-    }
+    looks.push_back({direction, unevenness(box.center() + distance * direction)});
   };
   for (int i = 0; i < DIRECTIONS; ++i) {
     // Fibonacci's spiral: about equally many everywhere on the sphere
@@ -62,7 +82,12 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
     const double r = std::sqrt(1.0 - z * z);
     look({r * std::cos(turn), r * std::sin(turn), z});
   }
-  const Eigen::Vector3d rough = best, across = rough.unitOrthogonal();
+  const double independent =
+      std::min(double(patches_.size()), double(n) / double(NEIGHBOURS));
+  const Eigen::Vector3d rough = likelyAxis(looks, independent);
+  const Eigen::Vector3d across = rough.unitOrthogonal();
+  least_ = leastOf(looks);
+  looks.clear();
   for (int i = 0; i < AROUND; ++i) {
     const double turn = i * 2.399963229728653;
     const double away = SPACING * std::sqrt((i + 0.5) / AROUND);
@@ -70,8 +95,10 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
           away * (std::cos(turn) * across + std::sin(turn) * rough.cross(across)))
              .normalized());
   }
+  least_ = std::min(least_, leastOf(looks));
   if (!(least_ < deviation(densities)))
     return;
+  const Eigen::Vector3d best = likelyAxis(looks, independent);
   std::vector<double> bulges;
   for (const Patch& patch : patches_)
     bulges.push_back(patch.normal.dot(best) > 0.0 ? patch.bulge : -patch.bulge);
