@@ -8,7 +8,7 @@ superquadrics, meshes and grasps out. Lengths are metres, arrays are numpy's.
 from __future__ import annotations
 
 import os
-from typing import Any, List, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -82,20 +82,27 @@ def _files_of(calibration: Union[PathLike, Sequence[PathLike], None]) -> List[st
     return [os.fspath(path) for path in calibration]
 
 
-def _scaled(depth: npt.ArrayLike, depth_scale: Optional[float]) -> npt.ArrayLike:
-    # rounded once, as the programs do
-    return depth if depth_scale is None else (
-        np.asarray(depth, np.float64) * depth_scale).astype(np.float32)
+def _steps(depth: npt.ArrayLike,
+           depth_scale: Optional[float]) -> Tuple[npt.NDArray[Any], float]:
+    array = np.asarray(depth)
+    if depth_scale is None:
+        return array, 0.0
+    if not 0 < depth_scale <= 1000:
+        raise OptionError("depth_scale is %r, but the length of one step [m] is above 0 and up "
+                          "to 1000." % depth_scale)
+    # whole numbers of other kinds than a 16-bit image has: exact as floats below 2^24
+    rare = array.dtype.kind in "iu" and array.dtype not in (np.uint8, np.uint16)
+    return array.astype(np.float32) if rare else array, float(depth_scale)
 
 
 def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
                  depth: Optional[npt.ArrayLike], mask: Optional[npt.ArrayLike],
-                 calibration: Sequence[str], options: Any) -> Model:
+                 calibration: Sequence[str], options: Any, depth_scale: float = 0.0) -> Model:
     stereo = _stereo_module()
     with in_python_words():
         text, cloud, colors, indices, notes = stereo.estimate(
-            _array(left), _array(right), _array(depth), _array(mask), list(calibration),
-            words_of(options))
+            _array(left), _array(right), _array(depth), _array(mask), depth_scale,
+            list(calibration), words_of(options))
     model = Model(_core.ModelFile.from_json(text), cloud, colors,
                   np.asarray(indices, np.int64))
     return model
@@ -113,8 +120,9 @@ def estimate_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
     color_hint, segment, parts, ..."""
     if "color_hint" in options:
         options["color"] = options.pop("color_hint")
-    return _from_images(color, None, _scaled(depth, depth_scale), mask, [],
-                        dict(options, intrinsics=intrinsics))
+    steps, scale = _steps(depth, depth_scale)
+    return _from_images(color, None, steps, mask, [], dict(options, intrinsics=intrinsics),
+                        scale)
 
 
 def estimate_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
@@ -151,12 +159,13 @@ def estimate_scene(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = N
 
 def _scene_from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
                        depth: Optional[npt.ArrayLike], labels: Optional[npt.ArrayLike],
-                       calibration: List[str], options: Any) -> Scene:
+                       calibration: List[str], options: Any,
+                       depth_scale: float = 0.0) -> Scene:
     stereo = _stereo_module()
     with in_python_words():
         text, cloud, colors, numbers = stereo.estimate_scene(
-            _array(left), _array(right), _array(depth), _array(labels), calibration,
-            words_of(options))
+            _array(left), _array(right), _array(depth), _array(labels), depth_scale,
+            calibration, words_of(options))
     return Scene(_core.SceneFile.from_json(text), cloud, colors, numbers)
 
 
@@ -165,8 +174,9 @@ def estimate_scene_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
                          labels: Optional[npt.ArrayLike] = None,
                          depth_scale: Optional[float] = None, **options: Any) -> Scene:
     """All things in a depth image; arguments as of estimate_depth() and estimate_scene()."""
-    return _scene_from_images(color, None, _scaled(depth, depth_scale), labels, [],
-                              dict(options, intrinsics=intrinsics))
+    steps, scale = _steps(depth, depth_scale)
+    return _scene_from_images(color, None, steps, labels, [],
+                              dict(options, intrinsics=intrinsics), scale)
 
 
 def estimate_scene_stereo(left: npt.ArrayLike, right: npt.ArrayLike,

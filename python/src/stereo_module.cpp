@@ -88,6 +88,7 @@ py::tuple estimate(const std::optional<py::array>& left,
                    const std::optional<py::array>& right,
                    const std::optional<py::array>& depth,
                    const std::optional<py::array>& mask,
+                   double depth_scale,
                    const Words& calibration,
                    const Words& words) {
   app::FrontOptions front;
@@ -111,6 +112,7 @@ py::tuple estimate(const std::optional<py::array>& left,
     front.left = left_name;
     front.right = right_name;
     front.depth = depth_name;
+    front.depth_scale = depth_scale;
     front.calib = calibration;
     front.mask = model.mask = mask_name;
     front.intrinsics = model.intrinsics;
@@ -135,6 +137,7 @@ py::tuple estimateScene(const std::optional<py::array>& left,
                         const std::optional<py::array>& right,
                         const std::optional<py::array>& depth,
                         const std::optional<py::array>& labels,
+                        double depth_scale,
                         const Words& calibration,
                         const Words& words) {
   app::FrontOptions front;
@@ -158,6 +161,7 @@ py::tuple estimateScene(const std::optional<py::array>& left,
     front.left = left_name;
     front.right = right_name;
     front.depth = depth_name;
+    front.depth_scale = depth_scale;
     front.calib = calibration;
     front.intrinsics = model.intrinsics;
     app::checkPairOptions(front);
