@@ -70,16 +70,38 @@ py::array cloudArray(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, bool colors
   return result;
 }
 
-/** \brief An image that is given; its name stands in messages. */
-void take(const std::optional<py::array>& array,
-          const char* name,
-          cv::Mat& image,
-          std::string& path) {
-  if (!array)
-    return;
-  image = imageOf(*array, name);
-  path = name;
-}
+using Image = std::optional<py::array>;
+
+/** \brief The images that are given, and the names that they have in messages. */
+struct GivenImages {
+  app::FrontOptions front;
+  std::string left_name, right_name, depth_name;
+
+  GivenImages(const Image& left, const Image& right, const Image& depth) {
+    take(left, depth ? "color" : "left", front.left_image, left_name);
+    take(right, "right", front.right_image, right_name);
+    take(depth, "depth", front.depth_image, depth_name);
+  }
+
+  static void
+  take(const Image& array, const char* name, cv::Mat& image, std::string& path) {
+    if (!array)
+      return;
+    image = imageOf(*array, name);
+    path = name;
+  }
+
+  /** \brief What no word of a command line says. */
+  void
+  finish(const app::ModelOptions& model, double depth_scale, const Words& calibration) {
+    front.left = left_name;
+    front.right = right_name;
+    front.depth = depth_name;
+    front.depth_scale = depth_scale;
+    front.calib = calibration;
+    front.intrinsics = model.intrinsics;
+  }
+};
 
 py::object colorsLike(const StereoView& seen) {
   return seen.stereo.left.empty() ? py::object(py::none())
@@ -92,20 +114,18 @@ class Frames {
 public:
   explicit Frames(bool following) : following_(following) {}
 
-  py::tuple estimate(const std::optional<py::array>& left,
-                     const std::optional<py::array>& right,
-                     const std::optional<py::array>& depth,
-                     const std::optional<py::array>& mask,
+  py::tuple estimate(const Image& left,
+                     const Image& right,
+                     const Image& depth,
+                     const Image& mask,
                      double depth_scale,
                      const Words& calibration,
                      const Words& words) {
-    app::FrontOptions front;
+    GivenImages images(left, right, depth);
+    app::FrontOptions& front = images.front;
     app::ModelOptions model;
-    std::string mask_name, left_name, right_name, depth_name;
-    take(left, depth ? "color" : "left", front.left_image, left_name);
-    take(right, "right", front.right_image, right_name);
-    take(depth, "depth", front.depth_image, depth_name);
-    take(mask, "mask", front.mask_image, mask_name);
+    std::string mask_name;
+    GivenImages::take(mask, "mask", front.mask_image, mask_name);
     if (!front.mask_image.empty())
       front.mask_image = front.mask_image > 0;
     StereoView seen;
@@ -117,13 +137,8 @@ public:
             app::addModelOptions(cli, model);
           },
           words);
-      front.left = left_name;
-      front.right = right_name;
-      front.depth = depth_name;
-      front.depth_scale = depth_scale;
-      front.calib = calibration;
+      images.finish(model, depth_scale, calibration);
       front.mask = model.mask = mask_name;
-      front.intrinsics = model.intrinsics;
       front.sequence = following_;
       app::chooseMatcher(model, front);
       app::checkFrontOptions(front, model.roi);
@@ -146,20 +161,17 @@ private:
 };
 
 /** \brief All things in a pair or a depth image, as pcl_sq_scene finds them. */
-py::tuple estimateScene(const std::optional<py::array>& left,
-                        const std::optional<py::array>& right,
-                        const std::optional<py::array>& depth,
-                        const std::optional<py::array>& labels,
+py::tuple estimateScene(const Image& left,
+                        const Image& right,
+                        const Image& depth,
+                        const Image& labels,
                         double depth_scale,
                         const Words& calibration,
                         const Words& words) {
-  app::FrontOptions front;
+  GivenImages images(left, right, depth);
+  app::FrontOptions& front = images.front;
   app::ModelOptions model;
   app::SceneChoices choices;
-  std::string left_name, right_name, depth_name;
-  take(left, depth ? "color" : "left", front.left_image, left_name);
-  take(right, "right", front.right_image, right_name);
-  take(depth, "depth", front.depth_image, depth_name);
   if (labels)
     choices.labels = labelsOf(*labels);
   StereoView seen;
@@ -171,12 +183,7 @@ py::tuple estimateScene(const std::optional<py::array>& left,
           app::addSceneOptions(cli, model, choices);
         },
         words);
-    front.left = left_name;
-    front.right = right_name;
-    front.depth = depth_name;
-    front.depth_scale = depth_scale;
-    front.calib = calibration;
-    front.intrinsics = model.intrinsics;
+    images.finish(model, depth_scale, calibration);
     app::checkPairOptions(front);
     app::checkModelOptions(model);
     seen = app::readSceneViews(front, model);
