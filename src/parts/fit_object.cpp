@@ -127,8 +127,8 @@ MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
 }
 
 /** \brief Goes back to one superquadric where parts make a model that is not to be
- * handed out, and that is: of a thing that is half hidden, parts may each follow a scrap
- * of what is seen. */
+ * handed out, and that is: of a thing that is half hidden, parts may each follow a
+ * scrap of what is seen. */
 void takeWholeIfBetter(const PieceContext& context,
                        Piece whole,
                        std::vector<Piece>& pieces) {
