@@ -14,11 +14,11 @@ namespace {
 
 constexpr double RADIUS = 0.03;
 
-SceneFileObject canAt(double x, double half_height = 0.06) {
+SceneFileObject canAt(double x, double radius = RADIUS) {
   Superquadric can;
-  can.semi_axes = {RADIUS, RADIUS, half_height};
+  can.semi_axes = {radius, radius, 0.06};
   can.epsilon1 = 0.2;
-  can.center = {x, 0.0, half_height};
+  can.center = {x, 0.0, 0.06};
   SceneFileObject object;
   object.file.model.parts = {can};
   return object;
@@ -97,16 +97,19 @@ TEST(SceneFiles, OtherThingsAreInTheWayOfTheHand) {
 
 TEST(SceneFiles, WithoutANumberTheThingWithTheBestGraspIsTaken) {
   const Folder folder;
-  const double beside = 2.0 * RADIUS + 0.003;
-  // the one in the middle is hemmed in, the last one stands alone
-  const std::string scene = writeScene(folder, {-beside, 0.0, beside, 0.4});
-  EXPECT_LT(farthestContact(graspsOf(folder, scene, {}), 0.4), RADIUS + 1e-3);
+  SceneFile scene;
+  // only one of them is narrower than the hand opens
+  scene.objects = {canAt(-0.3, 0.07), canAt(0.0), canAt(0.3, 0.07)};
+  scene.table = {0.0, 0.0, 1.0, 0.0};
+  const nlohmann::json grasps =
+      graspsOf(folder, folder.write("scene.json", toJson(scene)), {});
+  EXPECT_FALSE(grasps["grasps"].empty());
+  EXPECT_LT(farthestContact(grasps, 0.0), RADIUS + 1e-3);
 }
 
 TEST(SceneFiles, AThingIsJudgedByItselfAndAllByACloud) {
   const Folder folder;
   const std::string scene = writeScene(folder, {-0.2, 0.2});
-  ModelFile truth = canAt(0.2).file;
   // points of both cans' sides at half their height
   std::string cloud;
   for (const double x : {-0.2, 0.2})
@@ -130,9 +133,12 @@ TEST(SceneFiles, AThingIsJudgedByItselfAndAllByACloud) {
 TEST(SceneFiles, NumbersThatAreNoThingAreRefusedInASentence) {
   const Folder folder;
   const std::string scene = writeScene(folder, {-0.2, 0.2});
-  for (const char* program : {"pcl_sq_grasp", "pcl_sq_evaluate"})
-    expectRefusal(program, {scene, "--object", "3"}, 2, "2 only");
   const std::string model = folder.write("can.json", toJson(canAt(0.0).file));
-  for (const char* program : {"pcl_sq_grasp", "pcl_sq_evaluate"})
-    expectRefusal(program, {model, "--object", "1"}, 2, "no effect");
+  const std::string cloud = folder.write("points.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  expectRefusal("pcl_sq_grasp", {scene, "--object", "3"}, 2, "2 only");
+  expectRefusal("pcl_sq_grasp", {model, "--object", "1"}, 2, "no effect");
+  expectRefusal(
+      "pcl_sq_evaluate", {scene, "--cloud", cloud, "--object", "3"}, 2, "2 only");
+  expectRefusal(
+      "pcl_sq_evaluate", {model, "--cloud", cloud, "--object", "1"}, 2, "no effect");
 }
