@@ -19,7 +19,7 @@ constexpr std::array<double, 4> SHIFTS = {-0.1, -0.05, 0.05, 0.1};
 struct Split {
   Cut cut;
   bool shifted = false; ///< believed of solids of revolution only: others bend to it
-  bool final = false;   ///< a body and its handle; other parts may be bent as well
+  bool final = false;   ///< all families were tried
   Piece first, second;
   double score = 1e300;
 };
@@ -50,10 +50,14 @@ bool betterSplit(const Split& a, const Split& b) {
   return a.score < b.score;
 }
 
+/** \brief Fits the parts of a cut by the straight families, which rank cuts. Bare
+ * points of one view leave the depth so open that all must be compared. */
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
-  fitPiece(context, s.first, Effort::STRAIGHT, axis);
-  fitPiece(context, s.second, Effort::STRAIGHT, axis ? axis : axisOf(s.first));
-  s.score = s.first.score + s.second.score;
+  s.final = context.observed.pixels.cells.empty();
+  const Effort effort = s.final ? Effort::AGAIN : Effort::STRAIGHT;
+  fitPiece(context, s.first, effort, axis);
+  fitPiece(context, s.second, effort, axis ? axis : axisOf(s.first));
+  s.score = unbent(s.first) + unbent(s.second);
 }
 
 /** \brief Adds the best cut moved to where its two parts fit better: a bottle's
@@ -88,13 +92,15 @@ void keepPromising(std::vector<Split>& splits, double limit) {
     splits.pop_back();
 }
 
-/** \brief Fits the two parts of a cut with more families than before, and takes what
- * explains them better. */
+/** \brief Fits the two parts of a cut with more families than before, where those left
+ * something unexplained, and takes what explains them better. */
 void fitBetter(const PieceContext& context,
                Split& s,
                Effort effort,
                const Superquadric* axis) {
   const auto again = [&](Piece& piece, const Superquadric* shared) {
+    if (!(piece.misfit > tuning::family::MISFIT * observations(context, piece)))
+      return;
     Piece next = piece;
     fitPiece(context, next, effort, shared);
     if (next.score < piece.score)
