@@ -60,3 +60,21 @@ TEST(HiddenFoot, OfABottleIsItsBodys) {
   EXPECT_EQ(bottle->model.size(), 2u);
   EXPECT_NEAR(lowest(scene, *bottle), 0.0, 0.004);
 }
+
+TEST(HiddenFoot, HowFarAThingGoesOnIsOneUnknownHoweverManyLinesTellOfIt) {
+  TableScene truth = fineScene();
+  truth.stand({0.0, 0.09}, {0.035, 0.035, 0.065}, 0.1, 1.0)
+      .stand({0.06, -0.02}, {0.06, 0.02, 0.06}, 0.1, 0.1);
+  const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true), truthOf(truth));
+  const SceneObject* can = thingOf(scene, 1);
+  ASSERT_NE(can, nullptr) << scene.failure;
+  const ObservedObject& view = can->report.view;
+  const auto weightOf = [&view](int lines) {
+    double weight = 0.0;
+    for (const TangentPlane& end : view.evidence(view.contour, lines, true).limits)
+      weight += 1.0 / (end.sigma * end.sigma);
+    return weight;
+  };
+  ASSERT_GT(weightOf(36), 0.0);
+  EXPECT_NEAR(weightOf(144) / weightOf(36), 1.0, 1e-6);
+}
