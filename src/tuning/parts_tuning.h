@@ -227,7 +227,7 @@ inline constexpr std::size_t TRIED = 3;
 /// [rounds] of assigning points and fitting again; budget
 inline constexpr int ROUNDS = 3;
 /// [sweeps] over all numbers of parts, to more and back to fewer; budget
-inline constexpr int SWEEPS = 4;
+inline constexpr int SWEEPS = 2;
 /// [parts] beyond the best number, that are tried: one cut of a handle with two corners
 /// helps little; budget
 inline constexpr std::size_t PATIENCE = 3;
