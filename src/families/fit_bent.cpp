@@ -170,7 +170,8 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   for (Rod& rod : found)
     rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
-  found.resize(std::min(found.size(), KEPT));
+  // from all round the rough fits tell more of a rod than from one side
+  found.resize(std::min(found.size(), problem.eye() ? KEPT : 1));
   // of what is not bent, a bottle for instance, no arc is nearer to the points
   if (found.empty() ||
       (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) <
@@ -217,7 +218,9 @@ void fitBentAllPoints(const ViewProblem& problem,
                       ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma), start, ITERATIONS);
+  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma),
+                         start,
+                         problem.eye() ? ITERATIONS : 6);
   if (!(rod.cost < 1e299))
     return;
   chosen.bic += rod.cost - chosen.cost;

@@ -7,7 +7,7 @@
 #include "parts/split_view.h"
 #include "parts/union_score.h"
 #include "parts/verdict.h"
-#include "parts/whole_cloud.h"
+#include "parts/whole_search.h"
 #include "tuning/parts_tuning.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
@@ -89,11 +89,20 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
   const bool exactly = context.options.parts > 0;
   ObjectFitOptions options = context.options;
   options.fit.vessel = false;
-  const PieceContext solids{
+  PieceContext solids{
       context.observed, options, context.noise, context.precision, context.limits};
-  if (whole.fit.chosen.shape == ShapeClass::VESSEL)
-    fitPiece(solids, whole, Effort::AGAIN);
-  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  // whoever names a largest number asks for the detail that so many tell
+  if (options.max_parts == 0 || exactly) {
+    const double coarse = COARSE_ERROR * context.observed.extent;
+    solids.noise = std::max(context.noise, coarse);
+    min_gain = std::max(min_gain, COARSE_GAIN * context.observed.effective_points);
+  }
+  fitPiece(solids, whole, Effort::AGAIN);
+  std::vector<Piece> pieces =
+      splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  solids.noise = context.noise;
+  refineParts(solids, pieces);
+  return pieces;
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of
@@ -202,7 +211,9 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                      : options.max_parts > 0 ? options.max_parts
                      : observed.hasCamera()  ? MOST_IN_VIEW
                                              : MOST_ALL_ROUND;
-  const bool split = wanted > 1 && (noise > 0.0 || options.parts > 0);
+  // a whole cloud sampled from flat faces has none
+  const bool split =
+      wanted > 1 && (noise > 0.0 || options.parts > 0 || !observed.hasCamera());
   std::vector<Piece> pieces(1, wholePiece(context));
   // where parts are compared, the first fit but tells the noise; bare points of one
   // view leave the depth so open that the families must all start from there
@@ -219,7 +230,14 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                             ? 0.0
                             : SENSOR_ERROR * observed.depth)
             .norm();
-    fitPiece(context, pieces[0], Effort::AGAIN);
+    if (observed.hasCamera())
+      fitPiece(context, pieces[0], Effort::AGAIN);
+    else { // beyond the points of all sides there is nothing
+      Part whole;
+      whole.piece = std::move(pieces[0]);
+      fitPart(context, whole, Effort::AGAIN);
+      pieces[0] = std::move(whole.piece);
+    }
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
     if (observed.hasCamera()) {
       const Piece whole = pieces[0];
