@@ -92,14 +92,15 @@ void keepPromising(std::vector<Split>& splits, double limit) {
     splits.pop_back();
 }
 
-/** \brief Fits the two parts of a cut with more families than before, where those left
- * something unexplained, and takes what explains them better. */
+/** \brief Fits the two parts of a cut with more families than before, with bends where
+ * those left something unexplained, and takes what explains them better. */
 void fitBetter(const PieceContext& context,
                Split& s,
                Effort effort,
                const Superquadric* axis) {
   const auto again = [&](Piece& piece, const Superquadric* shared) {
-    if (!(piece.misfit > tuning::family::MISFIT * observations(context, piece)))
+    if (effort == Effort::AGAIN &&
+        !(piece.misfit > tuning::family::MISFIT * observations(context, piece)))
       return;
     Piece next = piece;
     fitPiece(context, next, effort, shared);

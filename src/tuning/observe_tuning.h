@@ -52,8 +52,8 @@ inline constexpr int FREE_MARGIN = 2;
 } // namespace observe_image
 
 namespace observe_object {
-/// [size] how well the edge of an occluder, or of the image, says where a thing ends, all
-/// its lines together; most of it is seen, or nobody would have pointed at it
+/// [size] how well the edge of an occluder, or of the image, says where a thing ends,
+/// all its lines together; most of it is seen, or nobody would have pointed at it
 inline constexpr double HIDDEN_SIGMA = 0.05;
 /// [points] dropped to the table; budget
 inline constexpr std::ptrdiff_t FEET = 200;
