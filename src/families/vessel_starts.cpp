@@ -52,9 +52,18 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
   const Interval across = extentAlong(p.medium(), s.rotation.col(0)),
                  deep = extentAlong(p.medium(), s.rotation.col(1));
   Interval high = extentAlong(p.medium(), up);
+  const Eigen::Vector3d middle =
+      across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1);
+  // down to the table, or to what hides the rest
+  double lowest = high.high - 1e-3;
+  bool ends = false;
   for (const TangentPlane& plane : p.tangents())
-    if (plane.normal.dot(up) < -UPRIGHT)
-      high.low = std::min(-plane.offset, high.high - 1e-3);
+    if (const double down = plane.normal.dot(up); down < -UPRIGHT) {
+      ends = true;
+      lowest = std::min(lowest, (plane.offset - plane.normal.dot(middle)) / down);
+    }
+  if (ends)
+    high.low = lowest;
   const double radius = std::max(across.half(), 1e-3);
   std::vector<Superquadric> starts;
   for (const Kind& kind : KINDS) {
@@ -68,8 +77,7 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
     const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
     s.semi_axes = {radius / growth, radius / growth, a3};
     s.wall = std::min(0.07 * radius, 0.3 * a3);
-    s.center = across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1) +
-               (high.low + a3) * up;
+    s.center = middle + (high.low + a3) * up;
     starts.push_back(s);
   }
   return starts;
