@@ -88,11 +88,25 @@ void addHiddenEnds(const ObservedObject& object,
     end.sigma = HIDDEN_SIGMA * object.extent;
     return end;
   };
-  // a piece's other ends are its joints
-  CellMask hidden(object.pixels.width, object.pixels.height);
-  for (const ContourPoint& p : object.contour)
-    if (!p.own && object.outline == OutlineSource::MASK)
-      hidden.set(int(p.pixel.x()), int(p.pixel.y()));
+  const CellMask& mask = object.pixels;
+  const auto atBorder = [&mask](const Eigen::Vector2d& p) {
+    return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
+           p.y() > mask.height - 2.0;
+  };
+  // a piece's other ends are its joints; of the image's border its whole side counts,
+  // not its corners, or a foot would be drawn on beyond it that nobody has seen
+  const double side = TOUCHES / std::sin(0.75 * 2.0 * M_PI / std::max(8, lines));
+  const auto endsAt = [&](const SilhouetteLine& line) {
+    const Eigen::Vector2d along(-line.direction.y(), line.direction.x());
+    double low = 1e300, high = -1e300;
+    for (const ContourPoint& p : object.contour)
+      if (!p.own && object.outline == OutlineSource::MASK &&
+          std::abs(line.direction.dot(p.pixel) - line.offset) <= TOUCHES) {
+        low = std::min(low, along.dot(p.pixel));
+        high = std::max(high, along.dot(p.pixel));
+      }
+    return high - low >= (atBorder(line.contact) ? side : 0.0);
+  };
   std::vector<ContourPoint> all = asOwn(object.contour);
   // it stands on the table, however little of it is seen
   if (object.table && object.hidden_below) {
@@ -110,8 +124,7 @@ void addHiddenEnds(const ObservedObject& object,
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
     const auto reached =
         std::find_if(pieces.begin(), pieces.end(), [&](const SilhouetteLine& other) {
-          return other.direction == line.direction &&
-                 hidden(int(other.contact.x()), int(other.contact.y()));
+          return other.direction == line.direction && endsAt(other);
         });
     // a foot that nobody sees is beyond what is reached
     const bool is_seen = object.pixels(int(line.contact.x()), int(line.contact.y()));
