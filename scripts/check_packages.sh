@@ -51,12 +51,15 @@ if grep -q 'PCL_SQ_BUILD_PYTHON:BOOL=ON' "$build/CMakeCache.txt"; then
   python=$(package python3-pcl-sq) module=usr/lib/python3/dist-packages/pcl_sq
   holds "$python" $module/__init__.py $module/py.typed $module/_core.pyi $module/batch.py
   field "$python" Depends | grep 'python3-numpy' >/dev/null || fail "python3-pcl-sq misses numpy"
-  # as installed, without installing: the packages' files in one folder
+  field "$python" Depends | grep 'pcl-sq' && fail "python3-pcl-sq depends on another file"
+  # as installed, without installing: this one file, from another folder than the build's
   rm -rf "$build/deb/root"
-  for deb in "$build"/deb/*.deb; do dpkg-deb -x "$deb" "$build/deb/root"; done
-  LD_LIBRARY_PATH="$build/deb/root/$lib" \
-    PYTHONPATH="$build/deb/root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
-    'import pcl_sq; assert pcl_sq.Superquadric([1, 1, 1]).distance([3.0, 0, 0]) == 2' ||
+  dpkg-deb -x "$python" "$build/deb/root"
+  PYTHONPATH="$build/deb/root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
+    'import pcl_sq, pcl_sq._files, pcl_sq._render, pcl_sq._stereo
+maps = [line.split()[-1] for line in open("/proc/self/maps") if "libpcl_sq" in line]
+assert len(set(maps)) == 3 and all("/deb/root/" in file for file in maps), maps
+assert pcl_sq.Superquadric([1, 1, 1]).distance([3.0, 0, 0]) == 2' ||
     fail "python3-pcl-sq does not import"
   rm -rf "$build/deb/root"
 fi

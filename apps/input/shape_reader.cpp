@@ -19,17 +19,31 @@ void refuseOtherFormats(std::string_view bytes) {
   const struct {
     std::string_view start;
     const char* name;
-  } formats[] = {{"\xff\xfe", "UTF-16 text; save it as UTF-8"},
-                 {"\xfe\xff", "UTF-16 text; save it as UTF-8"},
-                 {"LASF", "a LAS or LAZ file; convert it to PCD, PLY or text"},
-                 {"ASTM-E57", "an E57 file; convert it to PCD, PLY or text"},
-                 {"\x89PNG", "a PNG image; pcl_sq_stereo reads images"},
-                 {"\xff\xd8\xff", "a JPEG image; pcl_sq_stereo reads images"},
-                 {"PK\x03\x04", "a zip archive; unpack it"},
-                 {"\x1f\x8b", "packed by gzip; unpack it"},
-                 {"#ROSBAG", "a ROS bag; convert it with pcl_ros bag_to_pcd"},
-                 {"glTF", "a glTF file; convert it to PLY, OBJ or STL"},
-                 {"OFF", "an OFF file; convert it to PLY, OBJ or STL"}};
+  } formats[] = {
+      {"\xff\xfe", "UTF-16 text; save it as UTF-8"},
+      {"\xfe\xff", "UTF-16 text; save it as UTF-8"},
+      {"LASF", "a LAS or LAZ file; convert it to PCD, PLY or text"},
+      {"ASTM-E57", "an E57 file; convert it to PCD, PLY or text"},
+      {"\x89PNG", "a PNG image; pcl_sq_stereo reads images"},
+      {"\xff\xd8\xff", "a JPEG image; pcl_sq_stereo reads images"},
+      {"PK\x03\x04", "a zip archive; unpack it"},
+      {"\x1f\x8b", "packed by gzip; unpack it"},
+      {"BZh", "packed by bzip2; unpack it"},
+      {"\xfd"
+       "7zXZ",
+       "packed by xz; unpack it"},
+      {"\x28\xb5\x2f\xfd", "packed by zstd; unpack it"},
+      {"\x93NUMPY",
+       "an array of NumPy; pcl_sq.estimate() of the Python module takes it, or save it "
+       "by numpy.savetxt"},
+      {"\x89HDF", "an HDF5 file; convert it to PCD, PLY or text"},
+      {"MATLAB", "a MATLAB file; save the points as text"},
+      {"SQLite", "a database, perhaps a ROS 2 bag; save one cloud of it as PCD"},
+      {"\x89MCAP", "a ROS 2 bag; save one cloud of it as PCD"},
+      {"%PDF", "a PDF; give a point cloud"},
+      {"#ROSBAG", "a ROS bag; convert it with pcl_ros bag_to_pcd"},
+      {"glTF", "a glTF file; convert it to PLY, OBJ or STL"},
+      {"OFF", "an OFF file; convert it to PLY, OBJ or STL"}};
   for (const auto& format : formats)
     if (startsWith(bytes, format.start))
       throw Failure(std::string("it is ") + format.name);

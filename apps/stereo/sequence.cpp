@@ -2,12 +2,10 @@
 #include "stereo/sequence.h"
 
 #include "command_line/app.h"
-#include "files/files.h"
-#include "files/image_header.h"
 #include "model/model_json.h"
 #include "report/ordered_lines.h"
 #include "report/text.h"
-#include "stereo/stereo_model.h"
+#include "stereo/followed_frames.h"
 
 #include <nlohmann/json.hpp>
 
@@ -58,15 +56,6 @@ std::string errorLine(const std::string& path, const std::string& why) {
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/** \brief Width and height that an image says it has; 0 where it says none. */
-std::pair<std::uint64_t, std::uint64_t> sizeOf(const std::string& path) {
-  ImageHeader header;
-  std::string why;
-  if (!readImageHeader(readFile(path), header, &why))
-    return {0, 0};
-  return {header.width, header.height};
-}
-
 } // namespace
 
 std::vector<std::string> filesOf(const std::string& pattern) {
@@ -87,41 +76,21 @@ std::vector<std::string> filesOf(const std::string& pattern) {
 int runSequence(FrontOptions front, const ModelOptions& model) {
   const Frames frames(front);
   OrderedLines lines(model.output.empty() ? "-" : model.output, 1);
-  std::optional<StereoPipeline> pipeline;
-  bool all = true, followed = false;
-  std::pair<std::uint64_t, std::uint64_t> first;
+  FollowedFrames followed;
+  bool all = true;
   for (std::size_t i = 0; i < frames.size() && lines.failure().empty(); ++i) {
     frames.choose(i, front);
     const std::string& name = front.left.empty() ? front.depth : front.left;
-    const auto attempt = [&] {
-      const auto size = sizeOf(name);
-      if (i == 0)
-        first = size;
-      else if (size != first && size.first > 0)
-        throw Failure("the frame has " + std::to_string(size.first) + " x " +
-                      std::to_string(size.second) + " px, the first one " +
-                      std::to_string(first.first) + " x " +
-                      std::to_string(first.second) +
-                      "; give frames of one camera and one size.");
-      const StereoView view = runFront(front, model.roi, pipeline);
-      const StereoModel made = makeStereoModel(front, view, model);
+    std::string line;
+    try {
+      StereoView view;
+      const StereoModel made = followed.next(front, model, view);
       for (const std::string& sentence : made.result.report.notes)
         note(sentence, name);
-      return toJson(made.result.file, -1);
-    };
-    std::string line, why;
-    for (bool again = true; again && line.empty(); again = followed, followed = false) {
-      if (pipeline && !why.empty())
-        pipeline->reset(); // perhaps the scene is another one
-      try {
-        line = attempt();
-      } catch (const std::exception& error) {
-        why = sentenceOf(error);
-      }
-    }
-    followed = !line.empty();
-    if (line.empty()) {
+      line = toJson(made.result.file, -1);
+    } catch (const std::exception& error) {
       all = false;
+      const std::string why = sentenceOf(error);
       std::cerr << "pcl_sq_stereo: " + printable(name + ": " + why) + "\n";
       line = errorLine(name, why);
     }

@@ -10,7 +10,7 @@ namespace pcl_sq {
 
 /** \brief The whole file as bytes.
  * \param[in] path "-" or /dev/stdin is standard input, which is read once and
- * remembered
+ * remembered; a pointer of Git LFS or a web page in the place of a file is refused
  * \param[out] bytes cleared on failure
  * \param[out] why the reason of a failure, a sentence without its full stop (optional)
  * \return whether the file could be read to its end */

@@ -8,20 +8,23 @@ superquadrics, meshes and grasps out. Lengths are metres, arrays are numpy's.
 from __future__ import annotations
 
 import os
-from typing import Any, List, Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._core import MultiSuperquadric, Superquadric, __version__
 from . import _core
+from ._images import (DepthSequence, StereoSequence, array_of, estimate_depth,
+                      estimate_scene_depth, estimate_scene_stereo, estimate_stereo)
 from ._model import Model, PathLike
 from ._options import in_python_words, words_of
 from ._scene import Scene, Thing
 from ._types import Array, Cloud, Contact, Error, Fit, Grasp, Mesh, OptionError
 
-__all__ = ["Cloud", "Contact", "Error", "Fit", "Grasp", "Mesh", "Model", "MultiSuperquadric",
-           "OptionError", "Scene", "Superquadric", "Thing", "__version__", "estimate",
+__all__ = ["Cloud", "Contact", "DepthSequence", "Error", "Fit", "Grasp", "Mesh", "Model",
+           "MultiSuperquadric", "OptionError", "Scene", "StereoSequence", "Superquadric",
+           "Thing", "__version__", "estimate",
            "estimate_depth", "estimate_scene", "estimate_scene_depth", "estimate_scene_stereo",
            "estimate_stereo", "fit_superquadric", "load", "load_scene", "read_cloud"]
 
@@ -53,81 +56,11 @@ def estimate(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
                           unit=None if unit == "m" else unit, intrinsics=intrinsics,
                           viewpoint=viewpoint, table=table, up=up, threads=threads or None))
     with in_python_words():
-        file, indices = _core.estimate(array, None if colors is None else np.asarray(colors),
-                                       None if mask is None else np.asarray(mask), frame,
+        file, indices = _core.estimate(array, array_of(colors), array_of(mask), frame,
                                        words)
     scale = _UNITS.get(unit)
     return Model(file, array if scale is None else array * scale,
                  None if colors is None else np.asarray(colors, np.uint8), indices)
-
-
-def _array(image: Optional[npt.ArrayLike]) -> Optional[Array]:
-    return None if image is None else np.asarray(image)
-
-
-def _stereo_module() -> Any:
-    try:
-        from . import _stereo
-    except ModuleNotFoundError as error:
-        raise Error("this pcl_sq was built without stereo; build it with "
-                    "PCL_SQ_BUILD_STEREO=ON.") from error
-    return _stereo
-
-
-def _files_of(calibration: Union[PathLike, Sequence[PathLike], None]) -> List[str]:
-    if calibration is None:
-        return []
-    if isinstance(calibration, (str, os.PathLike)):
-        return [os.fspath(calibration)]
-    return [os.fspath(path) for path in calibration]
-
-
-def _scaled(depth: npt.ArrayLike, depth_scale: Optional[float]) -> npt.ArrayLike:
-    # rounded once, as the programs do
-    return depth if depth_scale is None else (
-        np.asarray(depth, np.float64) * depth_scale).astype(np.float32)
-
-
-def _from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
-                 depth: Optional[npt.ArrayLike], mask: Optional[npt.ArrayLike],
-                 calibration: Sequence[str], options: Any) -> Model:
-    stereo = _stereo_module()
-    with in_python_words():
-        text, cloud, colors, indices, notes = stereo.estimate(
-            _array(left), _array(right), _array(depth), _array(mask), list(calibration),
-            words_of(options))
-    model = Model(_core.ModelFile.from_json(text), cloud, colors,
-                  np.asarray(indices, np.int64))
-    return model
-
-
-def estimate_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
-                   color: Optional[npt.ArrayLike] = None,
-                   mask: Optional[npt.ArrayLike] = None, depth_scale: Optional[float] = None,
-                   **options: Any) -> Model:
-    """A union of superquadrics for the object in a depth image.
-
-    depth: H x W, uint16 in millimetres or floats in metres, unless depth_scale says the length
-    of a step. intrinsics: fx, fy, cx, cy [px]. color: H x W x 3 RGB or H x W. mask: H x W.
-    Hints and further options are those of pcl_sq_stereo: roi, click, color of the object as
-    color_hint, segment, parts, ..."""
-    if "color_hint" in options:
-        options["color"] = options.pop("color_hint")
-    return _from_images(color, None, _scaled(depth, depth_scale), mask, [],
-                        dict(options, intrinsics=intrinsics))
-
-
-def estimate_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
-                    calibration: Union[PathLike, Sequence[PathLike], None] = None, *,
-                    mask: Optional[npt.ArrayLike] = None, **options: Any) -> Model:
-    """A union of superquadrics for the object in a stereo pair.
-
-    left, right: H x W x 3 RGB or H x W, of bytes or deeper. calibration: one file or two
-    (OpenCV, ROS, Kalibr, ZED, Middlebury); or the options intrinsics and baseline. Hints and
-    further options are those of pcl_sq_stereo: roi, click, matcher, parts, ..."""
-    if "color_hint" in options:
-        options["color"] = options.pop("color_hint")
-    return _from_images(left, right, None, mask, _files_of(calibration), options)
 
 
 def estimate_scene(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
@@ -142,38 +75,11 @@ def estimate_scene(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = N
     array = np.asarray(points)
     with in_python_words():
         file, numbers = _core.estimate_scene(
-            array, _array(colors), _array(labels), frame,
+            array, array_of(colors), array_of(labels), frame,
             words_of(dict(options, unit=None if unit == "m" else unit)))
     scale = _UNITS.get(unit)
     return Scene(file, array if scale is None else array * scale,
                  None if colors is None else np.asarray(colors, np.uint8), numbers)
-
-
-def _scene_from_images(left: Optional[npt.ArrayLike], right: Optional[npt.ArrayLike],
-                       depth: Optional[npt.ArrayLike], labels: Optional[npt.ArrayLike],
-                       calibration: List[str], options: Any) -> Scene:
-    stereo = _stereo_module()
-    with in_python_words():
-        text, cloud, colors, numbers = stereo.estimate_scene(
-            _array(left), _array(right), _array(depth), _array(labels), calibration,
-            words_of(options))
-    return Scene(_core.SceneFile.from_json(text), cloud, colors, numbers)
-
-
-def estimate_scene_depth(depth: npt.ArrayLike, intrinsics: Sequence[float], *,
-                         color: Optional[npt.ArrayLike] = None,
-                         labels: Optional[npt.ArrayLike] = None,
-                         depth_scale: Optional[float] = None, **options: Any) -> Scene:
-    """All things in a depth image; arguments as of estimate_depth() and estimate_scene()."""
-    return _scene_from_images(color, None, _scaled(depth, depth_scale), labels, [],
-                              dict(options, intrinsics=intrinsics))
-
-
-def estimate_scene_stereo(left: npt.ArrayLike, right: npt.ArrayLike,
-                          calibration: Union[PathLike, Sequence[PathLike], None] = None, *,
-                          labels: Optional[npt.ArrayLike] = None, **options: Any) -> Scene:
-    """All things in a stereo pair; arguments as of estimate_stereo() and estimate_scene()."""
-    return _scene_from_images(left, right, None, labels, _files_of(calibration), options)
 
 
 def fit_superquadric(points: npt.ArrayLike, *, initial: Optional[Superquadric] = None,

@@ -60,7 +60,8 @@ class MultiSuperquadric:
 
 class ModelFile:
     model: MultiSuperquadric
-    frame: str
+    @property
+    def frame(self) -> str: ...
     extra_json: str
     @property
     def table(self) -> Optional[List[float]]: ...

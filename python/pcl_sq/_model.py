@@ -19,13 +19,54 @@ from ._types import Array, Error, Grasp, Mesh, OptionError
 PathLike = Union[str, "os.PathLike[str]"]
 
 
-class Model:
+class Bodies:
+    """Superquadrics in one frame: what a model and a scene have in common."""
+
+    _file: Union[_core.ModelFile, _core.SceneFile]
+
+    @property
+    def union(self) -> _core.MultiSuperquadric:
+        """All superquadrics as one union."""
+        raise NotImplementedError
+
+    @property
+    def frame(self) -> str:
+        """Name of the coordinate frame."""
+        return self._file.frame
+
+    @property
+    def table(self) -> Optional[npt.NDArray[np.float64]]:
+        """The table n . p + d = 0 as nx, ny, nz, d, where one was found."""
+        return None if self._file.table is None else np.array(self._file.table)
+
+    def distance(self, points: npt.ArrayLike, *, method: str = "exact") -> Any:
+        """Signed distance of each point to the surface [m], negative inside."""
+        return self.union.distance(np.asarray(points), method=method)
+
+    def contains(self, points: npt.ArrayLike) -> Any:
+        """Whether each point lies inside."""
+        return self.union.contains(np.asarray(points))
+
+    def mesh(self, resolution: int = 96) -> Mesh:
+        """The closed surface of all."""
+        return self.union.mesh(resolution)
+
+    def to_json(self, indent: int = 2) -> str:
+        """The text of the file; indent -1: one line."""
+        return self._file.to_json(indent)
+
+    def save(self, path: PathLike) -> None:
+        """Writes a file, whole or not at all."""
+        self._file.save(os.fspath(path))
+
+
+class Model(Bodies):
     """A union of superquadrics with its frame, table, report, and the cloud it is from."""
 
     def __init__(self, file: _core.ModelFile, cloud: Optional[Array] = None,
                  colors: Optional[npt.NDArray[np.uint8]] = None,
                  object_indices: Optional[npt.NDArray[np.int64]] = None) -> None:
-        self._file = file
+        self._file: _core.ModelFile = file
         self.cloud = cloud  #: the points it was estimated from, where they are known
         self.colors = colors  #: their colours, or None
         self.object_indices = object_indices  #: rows of the points that are the object
@@ -49,14 +90,6 @@ class Model:
         """A model of superquadrics that come from elsewhere."""
         return cls(_core.ModelFile.of_union(_core.MultiSuperquadric(list(parts))))
 
-    def to_json(self, indent: int = 2) -> str:
-        """The text of the model's file; indent -1: one line."""
-        return self._file.to_json(indent)
-
-    def save(self, path: PathLike) -> None:
-        """Writes a model file, whole or not at all."""
-        self._file.save(os.fspath(path))
-
     @property
     def union(self) -> _core.MultiSuperquadric:
         """The union itself."""
@@ -75,16 +108,6 @@ class Model:
 
     def __iter__(self) -> Iterator[_core.Superquadric]:
         return iter(self.parts)
-
-    @property
-    def frame(self) -> str:
-        """Name of the coordinate frame."""
-        return self._file.frame
-
-    @property
-    def table(self) -> Optional[npt.NDArray[np.float64]]:
-        """The table n . p + d = 0 as nx, ny, nz, d, where one was found."""
-        return None if self._file.table is None else np.array(self._file.table)
 
     @property
     def rms_distance(self) -> float:
@@ -119,18 +142,6 @@ class Model:
         """Width, depth and height of the object [m], where it was estimated."""
         value = self.extra.get("size")
         return None if value is None else np.array(value)
-
-    def distance(self, points: npt.ArrayLike, *, method: str = "exact") -> Any:
-        """Signed distance of each point to the surface [m], negative inside."""
-        return self._file.model.distance(np.asarray(points), method=method)
-
-    def contains(self, points: npt.ArrayLike) -> Any:
-        """Whether each point lies inside."""
-        return self._file.model.contains(np.asarray(points))
-
-    def mesh(self, resolution: int = 96) -> Mesh:
-        """The union's closed surface."""
-        return self._file.model.mesh(resolution)
 
     def plan_grasps(self, *, gripper: PathLike = "franka_hand", count: int = 10,
                     cloud: Optional[npt.ArrayLike] = None, **options: Any) -> List[Grasp]:

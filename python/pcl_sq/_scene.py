@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._model import Model, PathLike, View, render_json, write_export
-from ._types import Array, Error, Grasp, Mesh
+from ._model import Bodies, Model, PathLike, View, render_json, write_export
+from ._types import Array, Error, Grasp
 
 
 class Thing(Model):
@@ -39,13 +39,13 @@ class Thing(Model):
         return list(self._notes)
 
 
-class Scene:
+class Scene(Bodies):
     """A table and the things on it; objects from left to right in the image."""
 
     def __init__(self, file: _core.SceneFile, cloud: Optional[Array] = None,
                  colors: Optional[npt.NDArray[np.uint8]] = None,
                  labels: Optional[npt.NDArray[np.uint16]] = None) -> None:
-        self._file = file
+        self._file: _core.SceneFile = file
         self.cloud = cloud  #: the points it was estimated from, where they are known
         self.colors = colors  #: their colours, or None
         #: number of each pixel's thing, 0 for none; None where the scene is from a file
@@ -64,14 +64,6 @@ class Scene:
         """The scene of a file's text."""
         return cls(_core.SceneFile.from_json(text))
 
-    def to_json(self, indent: int = 2) -> str:
-        """The text of the scene's file; indent -1: one line."""
-        return self._file.to_json(indent)
-
-    def save(self, path: PathLike) -> None:
-        """Writes a scene file, whole or not at all."""
-        self._file.save(os.fspath(path))
-
     def __len__(self) -> int:
         return len(self.objects)
 
@@ -87,31 +79,9 @@ class Scene:
         return self._file.all()
 
     @property
-    def frame(self) -> str:
-        """Name of the coordinate frame."""
-        return self._file.frame
-
-    @property
-    def table(self) -> Optional[npt.NDArray[np.float64]]:
-        """The table n . p + d = 0 as nx, ny, nz, d, where one was found."""
-        return None if self._file.table is None else np.array(self._file.table)
-
-    @property
     def notes(self) -> List[str]:
         """Fall-backs and what was left out, sentences."""
         return list(self._file.notes)
-
-    def distance(self, points: npt.ArrayLike, *, method: str = "exact") -> Any:
-        """Signed distance of each point to the nearest thing [m], negative inside."""
-        return self.union.distance(np.asarray(points), method=method)
-
-    def contains(self, points: npt.ArrayLike) -> Any:
-        """Whether each point lies in a thing."""
-        return self.union.contains(np.asarray(points))
-
-    def mesh(self, resolution: int = 96) -> Mesh:
-        """The closed surface of all things."""
-        return self.union.mesh(resolution)
 
     def plan_grasps(self, number: Optional[int] = None, **options: Any) -> List[Grasp]:
         """Ranked grasps of one thing, best first; the others and the table are in the way.

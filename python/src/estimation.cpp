@@ -3,6 +3,7 @@
 #include "arrays.h"
 #include "bodies.h"
 #include "errors.h"
+#include "file_methods.h"
 #include "model/grasp_output.h"
 #include "options/model_options.h"
 #include "point_clouds.h"
@@ -10,8 +11,6 @@
 
 #include "command_line/value_checks.h"
 #include "pcl_sq/file_io.h"
-#include "pcl_sq/html_view.h"
-#include "pcl_sq/robot_export.h"
 
 namespace pcl_sq::python {
 
@@ -101,19 +100,13 @@ std::string planGrasps(const ModelFile& file,
   });
 }
 
-/** \brief The page of a model and its cloud. */
 std::string html(const ModelFile& file,
                  const std::optional<py::array>& cloud,
                  const std::optional<py::array>& colors,
                  const std::string& title) {
-  const PageCloud seen(cloud, colors, file.model);
-  HtmlViewOptions options;
-  options.title = title;
-  const py::gil_scoped_release unlocked;
-  return htmlView(file, seen.points, seen.offset, seen.colors, options);
+  return pageOf(file, PageCloud(cloud, colors, file.model), title);
 }
 
-/** \brief (name, bytes) of each file of a format. */
 std::vector<std::pair<std::string, py::bytes>> robotExport(const ModelFile& file,
                                                            const std::string& ending,
                                                            const std::string& name,
@@ -123,75 +116,28 @@ std::vector<std::pair<std::string, py::bytes>> robotExport(const ModelFile& file
   options.name = name;
   options.density = density;
   options.mesh_prefix = prefix;
-  std::string why;
-  if (!options.isValid(&why))
-    throw std::invalid_argument(why);
-  std::vector<std::pair<std::string, py::bytes>> files;
-  for (const TextFile& text : robotFiles(ending, file, options))
-    files.emplace_back(text.path, py::bytes(text.contents));
-  return files;
-}
-
-ModelFile fromText(const std::string& text) {
-  ModelFile file;
-  std::string why;
-  if (!fromJson(text, file, &why))
-    throw app::Failure("this text is no model: " + why + ".");
-  return file;
+  return exportOf(file, ending, options);
 }
 
 } // namespace
 
 void addEstimation(py::module_& module) {
-  py::class_<ModelFile>(module, "ModelFile", "The contents of a model file.")
-      .def_readwrite("model", &ModelFile::model)
-      .def_readwrite("frame", &ModelFile::frame)
-      .def_readonly("table", &ModelFile::table)
+  py::class_<ModelFile> type(module, "ModelFile", "The contents of a model file.");
+  type.def_readwrite("model", &ModelFile::model)
       .def_readonly("rms_distance", &ModelFile::rms_distance)
       .def_readonly("distortion", &ModelFile::distortion)
-      .def_readwrite("extra_json", &ModelFile::extra_json)
-      .def("to_json",
-           py::overload_cast<const ModelFile&, int>(&toJson),
-           py::arg("indent") = 2)
-      .def_static("of_union",
-                  [](const MultiSuperquadric& model) {
-                    ModelFile file;
-                    file.model = model;
-                    return file;
-                  })
-      .def_static("from_json",
-                  [](const std::string& text) {
-                    return guarded([&] { return fromText(text); });
-                  })
-      .def("save",
-           [](const ModelFile& file, const std::string& path) {
-             guarded([&] {
-               std::string why;
-               if (!saveModel(path, file, &why))
-                 throw app::Failure(why + ".");
-               return true;
-             });
-           })
-      .def_static("load", [](const std::string& path) {
-        return guarded([&] {
-          ModelFile file;
-          std::string why;
-          if (!loadModel(path, file, &why))
-            throw app::Failure(why + ".");
-          return file;
-        });
+      .def_static("of_union", [](const MultiSuperquadric& model) {
+        ModelFile file;
+        file.model = model;
+        return file;
       });
+  addFileMethods(type, "model", &saveModel, &loadModel);
   module.def("estimate", &estimate);
   module.def("plan_grasps", &planGrasps);
   module.def("html", &html);
   module.def("robot_export", &robotExport);
   module.def("write_file", [](const std::string& path, const std::string& bytes) {
-    guarded([&] {
-      std::string why;
-      if (!writeFile(path, bytes, &why))
-        throw app::Failure(why + ".");
-      return true;
-    });
+    succeed([&](std::string* why) { return writeFile(path, bytes, why); });
   });
 }
 

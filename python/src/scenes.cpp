@@ -3,11 +3,9 @@
 #include "arrays.h"
 #include "bodies.h"
 #include "errors.h"
+#include "file_methods.h"
 #include "model/scene_model.h"
 #include "point_clouds.h"
-
-#include "pcl_sq/html_view.h"
-#include "pcl_sq/robot_export.h"
 
 namespace pcl_sq::python {
 
@@ -57,75 +55,30 @@ py::tuple seenOf(const SceneFile& scene, std::size_t k) {
                         object.notes);
 }
 
-SceneFile fromText(const std::string& text) {
-  SceneFile file;
-  std::string why;
-  if (!fromJson(text, file, &why))
-    throw app::Failure("this text is no scene: " + why + ".");
-  return file;
-}
-
 std::string sceneHtml(const SceneFile& file,
                       const std::optional<py::array>& cloud,
                       const std::optional<py::array>& colors,
                       const std::string& title) {
-  const PageCloud seen(cloud, colors, file.all());
-  HtmlViewOptions options;
-  options.title = title;
-  const py::gil_scoped_release unlocked;
-  return htmlView(file, seen.points, seen.offset, seen.colors, options);
+  return pageOf(file, PageCloud(cloud, colors, file.all()), title);
 }
 
 std::vector<std::pair<std::string, py::bytes>>
 sceneExport(const SceneFile& file, const std::string& ending, const std::string& name) {
   RobotExportOptions options;
   options.name = name;
-  std::string why;
-  if (!options.isValid(&why))
-    throw std::invalid_argument(why);
-  std::vector<std::pair<std::string, py::bytes>> files;
-  for (const TextFile& text : robotFiles(ending, file, options))
-    files.emplace_back(text.path, py::bytes(text.contents));
-  return files;
+  return exportOf(file, ending, options);
 }
 
 } // namespace
 
 void addScenes(py::module_& module) {
-  py::class_<SceneFile>(module, "SceneFile", "The contents of a scene file.")
-      .def("__len__", [](const SceneFile& file) { return file.objects.size(); })
+  py::class_<SceneFile> type(module, "SceneFile", "The contents of a scene file.");
+  type.def("__len__", [](const SceneFile& file) { return file.objects.size(); })
       .def("thing", &thingOf)
       .def("seen", &seenOf)
-      .def_readonly("table", &SceneFile::table)
-      .def_readonly("frame", &SceneFile::frame)
       .def_readonly("notes", &SceneFile::notes)
-      .def_readwrite("extra_json", &SceneFile::extra_json)
-      .def("all", &SceneFile::all, py::arg("without") = std::size_t(-1))
-      .def("to_json",
-           py::overload_cast<const SceneFile&, int>(&toJson),
-           py::arg("indent") = 2)
-      .def_static("from_json",
-                  [](const std::string& text) {
-                    return guarded([&] { return fromText(text); });
-                  })
-      .def("save",
-           [](const SceneFile& file, const std::string& path) {
-             guarded([&] {
-               std::string why;
-               if (!saveScene(path, file, &why))
-                 throw app::Failure(why + ".");
-               return true;
-             });
-           })
-      .def_static("load", [](const std::string& path) {
-        return guarded([&] {
-          SceneFile file;
-          std::string why;
-          if (!loadScene(path, file, &why))
-            throw app::Failure(why + ".");
-          return file;
-        });
-      });
+      .def("all", &SceneFile::all, py::arg("without") = std::size_t(-1));
+  addFileMethods(type, "scene", &saveScene, &loadScene);
   module.def("estimate_scene", &estimateScene);
   module.def("scene_html", &sceneHtml);
   module.def("scene_export", &sceneExport);

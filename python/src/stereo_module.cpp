@@ -4,12 +4,14 @@
 #include "errors.h"
 #include "model/scene_model.h"
 #include "point_clouds.h"
+#include "stereo/followed_frames.h"
 #include "stereo/stereo_cloud.h"
-#include "stereo/stereo_model.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <pcl/console/print.h>
+
+#include <mutex>
 
 namespace pcl_sq::python {
 
@@ -68,82 +70,108 @@ py::array cloudArray(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, bool colors
   return result;
 }
 
-/** \brief An image that is given; its name stands in messages. */
-void take(const std::optional<py::array>& array,
-          const char* name,
-          cv::Mat& image,
-          std::string& path) {
-  if (!array)
-    return;
-  image = imageOf(*array, name);
-  path = name;
-}
+using Image = std::optional<py::array>;
+
+/** \brief The images that are given, and the names that they have in messages. */
+struct GivenImages {
+  app::FrontOptions front;
+  std::string left_name, right_name, depth_name;
+
+  GivenImages(const Image& left, const Image& right, const Image& depth) {
+    take(left, depth ? "color" : "left", front.left_image, left_name);
+    take(right, "right", front.right_image, right_name);
+    take(depth, "depth", front.depth_image, depth_name);
+  }
+
+  static void
+  take(const Image& array, const char* name, cv::Mat& image, std::string& path) {
+    if (!array)
+      return;
+    image = imageOf(*array, name);
+    path = name;
+  }
+
+  /** \brief What no word of a command line says. */
+  void
+  finish(const app::ModelOptions& model, double depth_scale, const Words& calibration) {
+    front.left = left_name;
+    front.right = right_name;
+    front.depth = depth_name;
+    front.depth_scale = depth_scale;
+    front.calib = calibration;
+    front.intrinsics = model.intrinsics;
+  }
+};
 
 py::object colorsLike(const StereoView& seen) {
   return seen.stereo.left.empty() ? py::object(py::none())
                                   : py::object(cloudArray(*seen.stereo.cloud, true));
 }
 
-py::tuple estimate(const std::optional<py::array>& left,
-                   const std::optional<py::array>& right,
-                   const std::optional<py::array>& depth,
-                   const std::optional<py::array>& mask,
-                   const Words& calibration,
-                   const Words& words) {
-  app::FrontOptions front;
-  app::ModelOptions model;
-  std::string mask_name, left_name, right_name, depth_name;
-  take(left, depth ? "color" : "left", front.left_image, left_name);
-  take(right, "right", front.right_image, right_name);
-  take(depth, "depth", front.depth_image, depth_name);
-  take(mask, "mask", front.mask_image, mask_name);
-  if (!front.mask_image.empty())
-    front.mask_image = front.mask_image > 0;
-  StereoView seen;
-  const app::StereoModel made = guarded([&] {
-    app::parseWords(
-        "pcl_sq_stereo",
-        [&](CLI::App& cli) {
-          app::addFrontOptions(cli, front);
-          app::addModelOptions(cli, model);
-        },
-        words);
-    front.left = left_name;
-    front.right = right_name;
-    front.depth = depth_name;
-    front.calib = calibration;
-    front.mask = model.mask = mask_name;
-    front.intrinsics = model.intrinsics;
-    app::chooseMatcher(model, front);
-    app::checkFrontOptions(front, model.roi);
-    app::checkModelOptions(model);
-    std::optional<StereoPipeline> pipeline;
-    seen = app::runFront(front, model.roi, pipeline);
-    return app::makeStereoModel(front, seen, model);
-  });
-  return py::make_tuple(
-      toJson(made.result.file),
-      cloudArray(*seen.stereo.cloud, false),
-      colorsLike(seen),
-      std::vector<std::int64_t>(made.result.report.object_indices.begin(),
-                                made.result.report.object_indices.end()),
-      seen.notes);
-}
+/** \brief What makes models of pairs and depth images, frame by frame or each for
+ * itself. */
+class Frames {
+public:
+  explicit Frames(bool following) : following_(following) {}
+
+  py::tuple estimate(const Image& left,
+                     const Image& right,
+                     const Image& depth,
+                     const Image& mask,
+                     double depth_scale,
+                     const Words& calibration,
+                     const Words& words) {
+    GivenImages images(left, right, depth);
+    app::FrontOptions& front = images.front;
+    app::ModelOptions model;
+    std::string mask_name;
+    GivenImages::take(mask, "mask", front.mask_image, mask_name);
+    if (!front.mask_image.empty())
+      front.mask_image = front.mask_image > 0;
+    StereoView seen;
+    const app::StereoModel made = guarded([&] {
+      app::parseWords(
+          "pcl_sq_stereo",
+          [&](CLI::App& cli) {
+            app::addFrontOptions(cli, front);
+            app::addModelOptions(cli, model);
+          },
+          words);
+      images.finish(model, depth_scale, calibration);
+      front.mask = model.mask = mask_name;
+      front.sequence = following_;
+      app::chooseMatcher(model, front);
+      app::checkFrontOptions(front, model.roi);
+      app::checkModelOptions(model);
+      const std::lock_guard<std::mutex> lock(one_); // Python's threads may share it
+      return frames_.next(front, model, seen);
+    });
+    return py::make_tuple(
+        toJson(made.result.file),
+        cloudArray(*seen.stereo.cloud, false),
+        colorsLike(seen),
+        std::vector<std::int64_t>(made.result.report.object_indices.begin(),
+                                  made.result.report.object_indices.end()));
+  }
+
+private:
+  bool following_;
+  std::mutex one_;
+  app::FollowedFrames frames_;
+};
 
 /** \brief All things in a pair or a depth image, as pcl_sq_scene finds them. */
-py::tuple estimateScene(const std::optional<py::array>& left,
-                        const std::optional<py::array>& right,
-                        const std::optional<py::array>& depth,
-                        const std::optional<py::array>& labels,
+py::tuple estimateScene(const Image& left,
+                        const Image& right,
+                        const Image& depth,
+                        const Image& labels,
+                        double depth_scale,
                         const Words& calibration,
                         const Words& words) {
-  app::FrontOptions front;
+  GivenImages images(left, right, depth);
+  app::FrontOptions& front = images.front;
   app::ModelOptions model;
   app::SceneChoices choices;
-  std::string left_name, right_name, depth_name;
-  take(left, depth ? "color" : "left", front.left_image, left_name);
-  take(right, "right", front.right_image, right_name);
-  take(depth, "depth", front.depth_image, depth_name);
   if (labels)
     choices.labels = labelsOf(*labels);
   StereoView seen;
@@ -155,11 +183,7 @@ py::tuple estimateScene(const std::optional<py::array>& left,
           app::addSceneOptions(cli, model, choices);
         },
         words);
-    front.left = left_name;
-    front.right = right_name;
-    front.depth = depth_name;
-    front.calib = calibration;
-    front.intrinsics = model.intrinsics;
+    images.finish(model, depth_scale, calibration);
     app::checkPairOptions(front);
     app::checkModelOptions(model);
     seen = app::readSceneViews(front, model);
@@ -182,6 +206,8 @@ py::tuple estimateScene(const std::optional<py::array>& left,
 
 PYBIND11_MODULE(_stereo, module) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  module.def("estimate", &pcl_sq::python::estimate);
+  pybind11::class_<pcl_sq::python::Frames>(module, "Frames")
+      .def(pybind11::init<bool>())
+      .def("estimate", &pcl_sq::python::Frames::estimate);
   module.def("estimate_scene", &pcl_sq::python::estimateScene);
 }

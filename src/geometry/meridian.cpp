@@ -12,15 +12,12 @@ namespace {
 constexpr int STEPS = 40;         ///< of a meridian's curve
 constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
 constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
-
-double toSegment(const Eigen::Vector2d& p,
-                 const Eigen::Vector2d& a,
-                 const Eigen::Vector2d& b) {
-  const Eigen::Vector2d side = b - a;
-  const double length = std::max(side.squaredNorm(), 1e-300);
-  const double t = std::clamp((p - a).dot(side) / length, 0.0, 1.0);
-  return (p - a - t * side).norm();
-}
+/** \brief Chords in the place of one: half a circle in STEPS of them misses by 7.7e-4
+ * of the radius, and the square of this less. */
+constexpr std::size_t FINE = 8;
+/** \brief Points from which on refined curves are worth their making: a point costs a
+ * REFINEMENTS-th of a golden section's powers, a curve FINE x STEPS of them. */
+constexpr std::size_t MANY = 2 * FINE * STEPS / REFINEMENTS;
 
 bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
@@ -34,6 +31,16 @@ bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2
 }
 
 } // namespace
+
+Meridian::Chord::Chord(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
+    : begin(from), side(to - from),
+      inverse(1.0 / std::max(side.squaredNorm(), 1e-300)) {}
+
+double Meridian::Chord::squareTo(const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d d = p - begin;
+  const double t = std::clamp(d.dot(side) * inverse, 0.0, 1.0);
+  return (d - t * side).squaredNorm();
+}
 
 Meridian::Meridian(const Superquadric& s, const Eigen::Vector2d& direction)
     : s_(s), direction_(direction.norm() > 0.0 ? direction.normalized()
@@ -82,13 +89,13 @@ void Meridian::addCurve(double inset, double low, double high) {
     c.points.push_back(at(c.places.back(), inset));
   }
   for (std::size_t i = 0; i < STEPS; ++i) {
+    const Chord& chord = c.chords.emplace_back(c.points[i], c.points[i + 1]);
     double miss = 0.0;
     for (const double share : {0.1, 0.5, 0.9})
-      miss = std::max(
-          miss,
-          toSegment(at((1.0 - share) * c.places[i] + share * c.places[i + 1], inset),
-                    c.points[i],
-                    c.points[i + 1]));
+      miss =
+          std::max(miss,
+                   std::sqrt(chord.squareTo(at(
+                       (1.0 - share) * c.places[i] + share * c.places[i + 1], inset))));
     c.miss = std::max(c.miss, miss);
     c.straight.push_back(miss < STRAIGHT * s_.semi_axes.maxCoeff());
   }
@@ -97,42 +104,66 @@ void Meridian::addCurve(double inset, double low, double high) {
 
 double
 Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) const {
-  double nearest = 1e300;
+  double square = 1e300;
   std::size_t chord = 0;
-  for (std::size_t i = 0; i < STEPS; ++i) {
-    const double d = toSegment(p, c.points[i], c.points[i + 1]);
-    if (d < nearest) {
-      nearest = d;
+  for (std::size_t i = 0; i < STEPS; ++i)
+    if (const double d = c.chords[i].squareTo(p); d < square) {
+      square = d;
       chord = i;
     }
-  }
+  const double nearest = std::sqrt(square);
   if (c.straight[chord] || nearest - 2.0 * c.miss > enough)
     return nearest;
+  if (!c.fine.empty()) {
+    square = 1e300; // the curve's foot may lie beside the chord's
+    const std::size_t begin = chord - std::min<std::size_t>(chord, 1),
+                      end = std::min<std::size_t>(chord + 2, STEPS);
+    for (std::size_t i = FINE * begin; i < FINE * end; ++i)
+      square = std::min(square, c.fine[i].squareTo(p));
+    return std::sqrt(square);
+  }
   constexpr double GOLDEN = 0.6180339887498949;
-  const auto square = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
+  const auto squareAt = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
   double low = c.places[chord], high = c.places[chord + 1];
   if (chord > 0) // the curve's foot may lie beside the chord's
     low = 0.5 * (low + c.places[chord - 1]);
   if (chord + 2 < c.places.size())
     high = 0.5 * (high + c.places[chord + 2]);
   double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
-  double at_left = square(left), at_right = square(right);
+  double at_left = squareAt(left), at_right = squareAt(right);
   for (int i = 0; i < REFINEMENTS; ++i)
     if (at_left < at_right) {
       high = right;
       right = left;
       at_right = at_left;
-      at_left = square(left = high - GOLDEN * (high - low));
+      at_left = squareAt(left = high - GOLDEN * (high - low));
     } else {
       low = left;
       left = right;
       at_left = at_right;
-      at_right = square(right = low + GOLDEN * (high - low));
+      at_right = squareAt(right = low + GOLDEN * (high - low));
     }
   return std::sqrt(std::min({at_left,
                              at_right,
                              (p - c.points[chord]).squaredNorm(),
                              (p - c.points[chord + 1]).squaredNorm()}));
+}
+
+void Meridian::refine() {
+  for (Curve& c : curves_) {
+    c.fine.clear();
+    Eigen::Vector2d from = c.points[0];
+    for (std::size_t i = 0; i < STEPS; ++i)
+      for (std::size_t k = 1; k <= FINE; ++k) {
+        const double share = double(k) / double(FINE);
+        const Eigen::Vector2d to =
+            k == FINE
+                ? c.points[i + 1]
+                : at((1.0 - share) * c.places[i] + share * c.places[i + 1], c.inset);
+        c.fine.emplace_back(from, to);
+        from = to;
+      }
+  }
 }
 
 double Meridian::distance(double rho, double z) const {
@@ -143,10 +174,11 @@ double Meridian::distance(double rho, double z) const {
   const Eigen::Vector2d edge = curves_[0].points.back();
   const Eigen::Vector2d inner =
       s_.isHollow() ? curves_[1].points.back() : Eigen::Vector2d(0.0, edge.y());
-  nearest = std::min(nearest, toSegment(p, inner, edge));
+  nearest = std::min(nearest, std::sqrt(Chord(inner, edge).squareTo(p)));
   if (s_.isHollow()) {
     const Eigen::Vector2d corner = curves_[1].points.front();
-    nearest = std::min(nearest, toSegment(p, {0.0, corner.y()}, corner));
+    nearest =
+        std::min(nearest, std::sqrt(Chord({0.0, corner.y()}, corner).squareTo(p)));
   }
   return inPolygon(polygon_, p) ? -nearest : nearest;
 }
@@ -159,12 +191,15 @@ void openResiduals(const Superquadric& s,
                    const UnitPoints& points,
                    kernels::Residual residual,
                    float* out) {
-  const Meridian all_round(s, Eigen::Vector2d::UnitX());
+  Meridian all_round(s, Eigen::Vector2d::UnitX());
+  const bool round = isRound(s);
+  if (round && points.size() > MANY)
+    all_round.refine();
   const double size = std::cbrt(s.semi_axes.prod());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d local = s.toLocal(points[i].cast<double>());
-    double r = isRound(s) ? all_round.distance(local.head<2>().norm(), local.z())
-                          : meridianDistance(s, local);
+    double r = round ? all_round.distance(local.head<2>().norm(), local.z())
+                     : meridianDistance(s, local);
     if (residual == kernels::Residual::GAUGE)
       r /= size;
     else if (residual == kernels::Residual::SOLINA)

@@ -52,7 +52,20 @@ public:
    * \param[in] rho distance from the axis */
   double distance(double rho, double z) const;
 
+  /** \brief Makes distances cheap and this object dear: chords so short that none
+   * misses the curve by more than a STRAIGHT part of the body's size. For many points.
+   */
+  void refine();
+
 private:
+  /** \brief A side of a polygon. */
+  struct Chord {
+    Eigen::Vector2d begin, side;
+    double inverse; ///< of its squared length
+
+    Chord(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+    double squareTo(const Eigen::Vector2d& p) const;
+  };
   /** \brief A curve of the outline at equal steps of the latitude, where corners are
    * dense; its places are points (1 - |s|, s) of a line, scaled onto the superellipse,
    * for small exponents make powers of the latitude steep. */
@@ -60,6 +73,8 @@ private:
     double inset = 0.0;
     std::vector<double> places;          ///< s
     std::vector<Eigen::Vector2d> points; ///< rho, z
+    std::vector<Chord> chords;           ///< between them
+    std::vector<Chord> fine;             ///< FINE in the place of each, once refined
     std::vector<bool> straight;          ///< whether the chord is as good as the curve
     double miss = 0.0;                   ///< by how much any chord misses the curve
   };

@@ -79,19 +79,40 @@ std::string readNamed(const std::string& path) {
   }
 }
 
+/** \brief What often lies where a file should be: nobody means it, whatever is read. */
+void refuseStandIns(const std::string& path, const std::string& bytes) {
+  std::string start = bytes.substr(0, 200);
+  std::transform(start.begin(), start.end(), start.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  start.erase(0, start.find_first_not_of(" \t\r\n"));
+  const auto begins = [&start](const char* with) { return start.rfind(with, 0) == 0; };
+  if (begins("version https://git-lfs."))
+    throw FileFailure{"'" + path +
+                      "' is a pointer of Git LFS in the place of the file; fetch the "
+                      "file by 'git lfs pull'"};
+  if (begins("<!doctype html") || begins("<html"))
+    throw FileFailure{"'" + path +
+                      "' is a page of the web, perhaps what a server said instead of "
+                      "the file; download it again"};
+}
+
 } // namespace
 
 bool readFile(const std::string& path, std::string& bytes, std::string* why) {
   bytes.clear();
   return succeeds(
       [&] {
-        if (path != "-" && path != "/dev/stdin") {
-          bytes = readNamed(path);
-          return;
+        std::string all;
+        if (path != "-" && path != "/dev/stdin")
+          all = readNamed(path);
+        else {
+          static const std::string standard_input =
+              bytesOf("standard input", STDIN_FILENO);
+          all = standard_input;
         }
-        static const std::string standard_input =
-            bytesOf("standard input", STDIN_FILENO);
-        bytes = standard_input;
+        refuseStandIns(path, all);
+        bytes = std::move(all);
       },
       why);
 }

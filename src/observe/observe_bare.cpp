@@ -56,24 +56,25 @@ std::vector<float> neighbourDistances(const std::vector<Eigen::Vector3f>& points
   // in order along the longest side, only points nearby in it need a look
   int axis;
   (high - low).maxCoeff(&axis);
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
-    return points[i][axis] != points[k][axis] ? points[i][axis] < points[k][axis]
-                                              : i < k;
-  });
+  std::vector<std::pair<float, std::size_t>> order(n);
+  for (std::size_t i = 0; i < n; ++i)
+    order[i] = {points[i][axis], i};
+  std::sort(order.begin(), order.end());
+  Eigen::Matrix3Xf sorted(3, Eigen::Index(n));
+  for (std::size_t i = 0; i < n; ++i)
+    sorted.col(Eigen::Index(i)) = points[order[i].second];
   std::vector<float> distance(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector3f& p = points[order[i]];
+    const Eigen::Vector3f p = sorted.col(Eigen::Index(i));
     std::array<float, NEIGHBOUR> nearest; // ascending squares
     nearest.fill(std::numeric_limits<float>::max());
     const auto look = [&](std::size_t k) {
-      const Eigen::Vector3f d = points[order[k]] - p;
+      const Eigen::Vector3f d = sorted.col(Eigen::Index(k)) - p;
       if (d[axis] * d[axis] > nearest.back())
         return false;
       const float square = d.squaredNorm();
-      const auto place = std::upper_bound(nearest.begin(), nearest.end(), square);
-      if (place != nearest.end()) {
+      if (square < nearest.back()) {
+        const auto place = std::upper_bound(nearest.begin(), nearest.end(), square);
         std::copy_backward(place, nearest.end() - 1, nearest.end());
         *place = square;
       }
@@ -83,7 +84,7 @@ std::vector<float> neighbourDistances(const std::vector<Eigen::Vector3f>& points
     }
     for (std::size_t k = i + 1; k < n && look(k); ++k) {
     }
-    distance[order[i]] = std::sqrt(nearest.back());
+    distance[order[i].second] = std::sqrt(nearest.back());
   }
   return distance;
 }

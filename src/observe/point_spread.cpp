@@ -15,14 +15,46 @@ namespace {
 
 using namespace tuning::point_spread;
 
-/** \brief Mean distance to the median: a small face of a box counts as well, which the
- * median distance would not see. */
+/** \brief Mean distance of the logarithms to their median: a small face of a box counts
+ * as well, which the median distance would not see. */
 double deviation(const std::vector<double>& values) {
+  constexpr std::size_t AT_ONCE = 4; // ratios whose product stays a number
   const double middle = median(values);
-  double sum = 0.0;
-  for (const double v : values)
-    sum += std::abs(v - middle);
+  double sum = 0.0, product = 1.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double ratio = values[i] / middle;
+    product *= std::max(ratio, 1.0 / ratio);
+    if (i % AT_ONCE == AT_ONCE - 1 || i + 1 == values.size()) {
+      sum += std::log(product);
+      product = 1.0;
+    }
+  }
   return sum / double(values.size());
+}
+
+/** \brief A direction and how uneven the points' number per pixel is from there. */
+struct Look {
+  Eigen::Vector3d direction;
+  double uneven;
+};
+
+double leastOf(const std::vector<Look>& looks) {
+  double least = 1e300;
+  for (const Look& look : looks)
+    least = std::min(least, look.uneven);
+  return least;
+}
+
+/** \brief The mean of directions by their odds, opposite ones taken as one. Of errors
+ * that fall off exponentially, of unknown size, the odds are a power of the unevenness:
+ * where several directions are nearly as even, the best of them is chance. */
+Eigen::Vector3d likelyAxis(const std::vector<Look>& looks, double independent) {
+  const double least = leastOf(looks);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Look& look : looks)
+    sum += std::pow(least / look.uneven, independent) * look.direction *
+           look.direction.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2);
 }
 
 } // namespace
@@ -45,15 +77,10 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   if (Eigen::Index(patches_.size()) < FEWEST)
     return;
   const double distance = FAR * 0.5 * box.diagonal().norm();
-  Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
-  least_ = 1e300;
+  std::vector<Look> looks;
   const auto look = [&](const Eigen::Vector3d& direction) {
     // the opposite one is as even
-    const double uneven = unevenness(box.center() + distance * direction);
-    if (uneven < least_) {
-      least_ = uneven;
-      best = direction;
-    }
+    looks.push_back({direction, unevenness(box.center() + distance * direction)});
   };
   for (int i = 0; i < DIRECTIONS; ++i) {
     // Fibonacci's spiral: about equally many everywhere on the sphere
@@ -62,7 +89,12 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
     const double r = std::sqrt(1.0 - z * z);
     look({r * std::cos(turn), r * std::sin(turn), z});
   }
-  const Eigen::Vector3d rough = best, across = rough.unitOrthogonal();
+  const double independent =
+      std::min(double(patches_.size()), double(n) / double(NEIGHBOURS));
+  const Eigen::Vector3d rough = likelyAxis(looks, independent);
+  const Eigen::Vector3d across = rough.unitOrthogonal();
+  least_ = leastOf(looks);
+  looks.clear();
   for (int i = 0; i < AROUND; ++i) {
     const double turn = i * 2.399963229728653;
     const double away = SPACING * std::sqrt((i + 0.5) / AROUND);
@@ -70,52 +102,56 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
           away * (std::cos(turn) * across + std::sin(turn) * rough.cross(across)))
              .normalized());
   }
+  least_ = std::min(least_, leastOf(looks));
   if (!(least_ < deviation(densities)))
     return;
+  const Eigen::Vector3d best = likelyAxis(looks, independent);
   std::vector<double> bulges;
   for (const Patch& patch : patches_)
     bulges.push_back(patch.normal.dot(best) > 0.0 ? patch.bulge : -patch.bulge);
   direction_ = median(std::move(bulges)) > 0.0 ? best : -best;
 }
 
-std::optional<PointSpread::Patch> PointSpread::patchOf(const Eigen::Matrix3Xd& points,
-                                                       Eigen::Index middle,
-                                                       std::vector<Eigen::Index> near) {
-  const auto distance = [&](Eigen::Index k) {
-    return (points.col(k) - points.col(middle)).squaredNorm();
-  };
-  std::sort(near.begin(), near.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return distance(a) < distance(b);
-  });
+std::optional<PointSpread::Patch>
+PointSpread::patchOf(const Eigen::Matrix3Xd& points,
+                     Eigen::Index middle,
+                     const std::vector<Eigen::Index>& around) {
+  std::vector<std::pair<double, Eigen::Index>> near;
+  near.reserve(around.size());
+  for (const Eigen::Index k : around)
+    near.emplace_back((points.col(k) - points.col(middle)).squaredNorm(), k);
+  std::sort(near.begin(), near.end());
   const auto meanOf = [&](std::size_t begin, std::size_t end) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (std::size_t k = begin; k < end; ++k)
-      mean += points.col(near[k]) / double(end - begin);
+      mean += points.col(near[k].second) / double(end - begin);
     return mean;
   };
   const Eigen::Vector3d mean = meanOf(0, PLANE);
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-  for (std::size_t k = 0; k < PLANE; ++k)
-    square += (points.col(near[k]) - mean) * (points.col(near[k]) - mean).transpose();
+  for (std::size_t k = 0; k < PLANE; ++k) {
+    const Eigen::Vector3d d = points.col(near[k].second) - mean;
+    square += d * d.transpose();
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(square);
-  const double reach = distance(near[NEIGHBOURS]);
+  const double reach = near[NEIGHBOURS].first;
   if (!(reach > 0.0) || eigen.info() != Eigen::Success)
     return std::nullopt;
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
   return Patch{points.col(middle),
                normal,
-               -std::log(reach),
+               1.0 / reach,
                normal.dot(mean - meanOf(PLANE, near.size()))};
 }
 
 double PointSpread::unevenness(const Eigen::Vector3d& place) const {
   std::vector<double> in_image;
+  in_image.reserve(patches_.size());
   for (const Patch& patch : patches_) {
     const Eigen::Vector3d ray = patch.place - place;
-    const double length = std::max(ray.norm(), 1e-9);
-    const double cosine = std::abs(patch.normal.dot(ray)) / length;
-    in_image.push_back(patch.density - std::log(std::max(cosine, GRAZING)) +
-                       2.0 * std::log(length));
+    const double square = std::max(ray.squaredNorm(), 1e-18);
+    const double cosine = std::abs(patch.normal.dot(ray)) / std::sqrt(square);
+    in_image.push_back(patch.density * square / std::max(cosine, GRAZING));
   }
   return deviation(in_image);
 }

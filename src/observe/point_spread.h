@@ -30,13 +30,13 @@ public:
 private:
   struct Patch {
     Eigen::Vector3d place, normal;
-    double density; ///< logarithm of the points' number per area
+    double density; ///< points' number per area, but for a factor
     double bulge;   ///< along the normal, of the middle over its surroundings [m]
   };
   /** \brief A point and what is around it. */
   static std::optional<Patch> patchOf(const Eigen::Matrix3Xd& points,
                                       Eigen::Index middle,
-                                      std::vector<Eigen::Index> near);
+                                      const std::vector<Eigen::Index>& around);
   /** \brief Of the logarithm of the points' number per pixel: how uneven it is. */
   double unevenness(const Eigen::Vector3d& place) const;
 

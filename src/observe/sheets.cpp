@@ -3,6 +3,7 @@
 
 #include "sensor/local_quadric.h"
 #include "tuning/observe_tuning.h"
+#include "util/order_statistic.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -41,8 +42,6 @@ public:
                        return ha != hb ? ha < hb : a < b;
                      });
   }
-  /** \brief Of the nearer half, the farthest. */
-  double reach() const { return std::abs(height[order[size()]]); }
 
   std::vector<double> height;
   std::vector<std::size_t> order;
@@ -53,21 +52,30 @@ public:
  * their points, a plane through all near ones lies across. */
 Eigen::Vector3d ownPlane(const Eigen::Matrix3Xd& points,
                          const std::vector<Eigen::Index>& near) {
-  const Eigen::Vector3d at = points.col(near[0]);
-  Half half(near.size());
+  const std::size_t n = near.size(), half = n / 2;
+  Eigen::Matrix3Xd local(3, Eigen::Index(n));
+  for (std::size_t k = 0; k < n; ++k)
+    local.col(Eigen::Index(k)) = points.col(near[k]) - points.col(near[0]);
+  std::vector<double> height(n), spare(n);
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
   double least = 1e300;
   for (std::size_t a = 1; a < NEAREST; ++a)
     for (std::size_t b = a + 1; b <= NEAREST; ++b) {
-      const Eigen::Vector3d u = points.col(near[a]) - at, v = points.col(near[b]) - at;
-      const Eigen::Vector3d normal = u.cross(v);
-      if (!(normal.norm() > SLIVER * u.norm() * v.norm()))
+      const Eigen::Vector3d u = local.col(Eigen::Index(a)),
+                            v = local.col(Eigen::Index(b));
+      const Eigen::Vector3d across = u.cross(v);
+      if (!(across.norm() > SLIVER * u.norm() * v.norm()))
         continue;
-      half.choose(points, near, normal.normalized(), at);
-      if (half.reach() < least) {
-        least = half.reach();
-        best = normal.normalized();
+      const Eigen::Vector3d normal = across.normalized();
+      std::size_t nearer = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        height[k] = std::abs(normal.dot(local.col(Eigen::Index(k))));
+        nearer += height[k] < least;
       }
+      if (nearer <= half) // no better
+        continue;
+      least = orderStatistic(height.data(), spare.data(), n, half);
+      best = normal;
     }
   return best;
 }

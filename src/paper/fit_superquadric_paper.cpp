@@ -5,10 +5,9 @@
 #include "pcl_sq/fit_superquadric.h"
 
 #include "solver/descriptions.h"
+#include "solver/lm.h"
 #include "union/surface_statistics.h"
 #include "util/point_set.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <limits>
@@ -19,66 +18,28 @@ namespace pcl_sq {
 namespace {
 
 constexpr std::size_t MIN_POINTS = 10; ///< for three parameters and some noise
-/** \brief Exponents and ln a3 are of order one. Steps end the fit, not costs: near the
- * minimum those differ by less than the rounding of their single-precision residuals,
- * which the points' order changes, while the gradient still shows the way. */
+/** \brief Exponents and ln a3 are of order one. */
 constexpr double STEP_TOLERANCE = 2e-7;
 constexpr double ROUNDING = 1e-6; ///< of a cost, relative
-constexpr double MAX_DAMPING = 1e10;
 
 using detail::PaperProblem;
 
-/** \brief Levenberg-Marquardt with Marquardt's scaling; bounds by projection, a
- * parameter at its bound is frozen while the gradient pushes outwards. */
 FitSummary minimise(const PaperProblem& problem,
                     const Superquadric& start,
                     const PaperFitOptions& options) {
+  detail::LmLimits limits;
+  limits.max_iterations = options.max_iterations;
+  limits.step_tolerance = STEP_TOLERANCE;
+  limits.cost_rounding = ROUNDING;
+  const auto found = detail::minimiseSquares(problem,
+                                             problem.clamp(problem.parametersOf(start)),
+                                             Eigen::Matrix3d::Identity(),
+                                             limits);
   FitSummary summary;
-  Eigen::Vector3d x = problem.clamp(problem.parametersOf(start));
-  PaperProblem::Normal normal = problem.linearise(x);
-  double damping = 1e-3;
-  summary.termination = Termination::MAX_ITERATIONS;
-  while (summary.iterations < options.max_iterations) {
-    Eigen::Matrix3d hessian = normal.hessian;
-    Eigen::Vector3d gradient = normal.gradient;
-    for (int k = 0; k < 3; ++k)
-      if (problem.pushesOutwards(x, gradient, k)) {
-        hessian.row(k).setZero();
-        hessian.col(k).setZero();
-        hessian(k, k) = 1.0;
-        gradient[k] = 0.0;
-      }
-    if (gradient.cwiseAbs().maxCoeff() <= 1e-12 * (1e-300 + normal.cost)) {
-      summary.termination = Termination::GRADIENT_TOO_SMALL;
-      break;
-    }
-    ++summary.iterations;
-    const Eigen::Vector3d scaling =
-        hessian.diagonal().cwiseMax(1e-12 * hessian.trace());
-    hessian += damping * Eigen::Matrix3d(scaling.asDiagonal());
-    const Eigen::Vector3d candidate = problem.clamp(x - hessian.ldlt().solve(gradient));
-    const double promised = gradient.dot(x - candidate); // twice, at the minimum
-    if ((candidate - x).cwiseAbs().maxCoeff() < STEP_TOLERANCE) {
-      summary.termination = Termination::STEP_TOO_SMALL;
-      break;
-    }
-    const PaperProblem::Normal next = problem.linearise(candidate);
-    const double slack =
-        promised < ROUNDING * normal.cost ? ROUNDING * normal.cost : 0.0;
-    if (!(next.cost < normal.cost + slack)) {
-      damping *= 6.0;
-      if (damping > MAX_DAMPING) {
-        summary.termination = Termination::DAMPING_TOO_LARGE;
-        break;
-      }
-      continue;
-    }
-    x = candidate;
-    normal = next;
-    damping = std::max(0.2 * damping, 1e-12);
-  }
-  summary.model = problem.superquadricAt(x);
-  summary.distortion = normal.cost;
+  summary.model = problem.superquadricAt(found.model);
+  summary.distortion = found.equations.cost;
+  summary.iterations = found.iterations;
+  summary.termination = found.termination;
   return summary;
 }
 

@@ -37,14 +37,20 @@ Eigen::Vector3d PaperProblem::clamp(const Eigen::Vector3d& x) const {
   return x.cwiseMax(lower_).cwiseMin(upper_);
 }
 
-bool PaperProblem::pushesOutwards(const Eigen::Vector3d& x,
-                                  const Eigen::Vector3d& gradient,
-                                  int k) const {
-  return (x[k] <= lower_[k] && gradient[k] > 0.0) ||
-         (x[k] >= upper_[k] && gradient[k] < 0.0);
+PaperProblem::Model
+PaperProblem::moved(const Model& x, const Eigen::Vector3d& step, bool& limited) const {
+  limited = false;
+  return clamp(x + step);
 }
 
-PaperProblem::Normal PaperProblem::linearise(const Eigen::Vector3d& x) const {
+bool PaperProblem::isActiveBound(const Model& x,
+                                 const Eigen::Vector3d& direction) const {
+  return ((x.array() <= lower_.array() && direction.array() < 0.0) ||
+          (x.array() >= upper_.array() && direction.array() > 0.0))
+      .any();
+}
+
+PaperProblem::Equations PaperProblem::evaluate(const Model& x) const {
   const Superquadric s = superquadricAt(x);
   kernels::Residual residual = kernels::Residual::RADIAL;
   double factor = 1.0;        // of the squared residuals
@@ -82,15 +88,15 @@ PaperProblem::Normal PaperProblem::linearise(const Eigen::Vector3d& x) const {
     return result;
   };
   const double scale = factor / double(points_.size());
-  Normal normal;
-  normal.cost = scale * sums.products[RESIDUAL][RESIDUAL];
+  Equations e;
+  e.cost = e.points_cost = scale * sums.products[RESIDUAL][RESIDUAL];
   for (int i = 0; i < 3; ++i) {
     const Weights row = times(columns.col(i));
-    normal.gradient[i] = scale * row[RESIDUAL];
+    e.jtr[i] = scale * row[RESIDUAL];
     for (int j = 0; j < 3; ++j)
-      normal.hessian(i, j) = scale * columns.col(j).dot(row);
+      e.jtj(i, j) = scale * columns.col(j).dot(row);
   }
-  return normal;
+  return e;
 }
 
 } // namespace pcl_sq::detail

@@ -7,15 +7,17 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Least-squares problem of the paper's fit over x = (e1, e2, ln a_free);
- * lengths are in units of the start's frame. */
+/** \brief Least-squares problem of the paper's fit over x = (e1, e2, ln a_free), as
+ * minimiseSquares() wants it; lengths are in units of the start's frame. */
 class PaperProblem {
 public:
+  static constexpr int N = 3;
+  using Model = Eigen::Vector3d; ///< x
   /** \brief Cost and normal equations at one x. */
-  struct Normal {
-    double cost = 0.0;
-    Eigen::Vector3d gradient = Eigen::Vector3d::Zero(); ///< J^T r
-    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();  ///< J^T J
+  struct Equations {
+    double cost = 0.0, points_cost = 0.0;
+    Eigen::Vector3d jtr = Eigen::Vector3d::Zero(); ///< J^T r
+    Eigen::Matrix3d jtj = Eigen::Matrix3d::Zero(); ///< J^T J
   };
 
   /** \param[in] points in the frame in which \a start is given
@@ -26,14 +28,13 @@ public:
                int free_axis,
                const PaperFitOptions& options);
 
-  Eigen::Vector3d parametersOf(const Superquadric& s) const;
-  Superquadric superquadricAt(const Eigen::Vector3d& x) const;
-  Eigen::Vector3d clamp(const Eigen::Vector3d& x) const;
-  /** \brief Whether descent would leave the bound at which parameter k stands. */
-  bool pushesOutwards(const Eigen::Vector3d& x,
-                      const Eigen::Vector3d& gradient,
-                      int k) const;
-  Normal linearise(const Eigen::Vector3d& x) const;
+  Model parametersOf(const Superquadric& s) const;
+  Superquadric superquadricAt(const Model& x) const;
+  Model clamp(const Model& x) const;
+  Equations evaluate(const Model& x) const;
+  Model moved(const Model& x, const Eigen::Vector3d& step, bool& limited) const;
+  bool isActiveBound(const Model& x, const Eigen::Vector3d& direction) const;
+  double rounding() const { return 0.0; } // see LmLimits::cost_rounding
 
 private:
   const UnitPoints& points_;

@@ -28,19 +28,36 @@ constexpr double DOUBLE_CELLS = 0.2;  ///< more cells with two layers make no vi
 /** \brief Largest median scatter about the cells' planes, in half diagonals: noise and
  * curvature stay below, front and back of a rod do not. */
 constexpr double SCATTER = 0.03;
+/** \brief Determinant over the trace's square of points on a line, by rounding. */
+constexpr double SLIVER = 1e-12;
+
+/** \brief A point as it is seen: its image and how far it is. */
+struct SeenPoint {
+  double x, y, range;
+};
 
 /** \brief Standard deviation of ranges about their plane over the image. */
-double scatter(const std::vector<Eigen::Vector3d>& cell) {
-  Eigen::MatrixX3d plane(Eigen::Index(cell.size()), 3);
-  Eigen::VectorXd range(Eigen::Index(cell.size()));
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    plane.row(Eigen::Index(i)) << cell[i].x() - cell[0].x(), cell[i].y() - cell[0].y(),
-        1.0;
-    range[Eigen::Index(i)] = cell[i].z();
+double scatter(const SeenPoint* cell, std::size_t count) {
+  const double n = double(count);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < count; ++i)
+    mean += Eigen::Vector3d(cell[i].x, cell[i].y, cell[i].range) / n;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d d =
+        Eigen::Vector3d(cell[i].x, cell[i].y, cell[i].range) - mean;
+    moments += d * d.transpose();
   }
-  const Eigen::VectorXd residuals =
-      range - plane * plane.colPivHouseholderQr().solve(range);
-  return residuals.norm() / std::sqrt(double(cell.size() - 3));
+  // what the plane leaves of the ranges' moment
+  const Eigen::Matrix2d image = moments.topLeftCorner<2, 2>();
+  const Eigen::Vector2d slope = moments.topRightCorner<2, 1>();
+  const double flat = image.determinant(), size = image.trace();
+  double left = moments(2, 2);
+  if (flat > SLIVER * size * size)
+    left -= slope.dot(image.inverse() * slope);
+  else if (size > 0.0)
+    left -= slope.squaredNorm() / size;
+  return std::sqrt(std::max(0.0, left) / (n - 3.0));
 }
 
 /** \brief What points look like from a place. */
@@ -64,10 +81,11 @@ Look lookFrom(const Eigen::Vector3d& place,
   const int cells = std::max(
       1,
       static_cast<int>(std::sqrt(static_cast<double>(points.cols()) / POINTS_A_CELL)));
-  std::vector<std::vector<Eigen::Vector3d>> pixels(static_cast<std::size_t>(cells) *
-                                                   static_cast<std::size_t>(cells));
+  const auto cell_count = std::size_t(cells) * std::size_t(cells);
+  std::vector<std::size_t> cell_of(std::size_t(points.cols())), begins(cell_count + 1);
   double inner = 0.0, outer = 0.0;
   int inner_count = 0, outer_count = 0;
+  std::vector<double> ranges(std::size_t(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     int cell[2];
     double radius = 0.0;
@@ -77,30 +95,42 @@ Look lookFrom(const Eigen::Vector3d& place,
       radius += std::pow(2.0 * at - 1.0, 2);
     }
     const double range = (points.col(i) - place).norm();
-    const int at = cell[0] + cells * cell[1];
-    pixels[static_cast<std::size_t>(at)].emplace_back(image(0, i), image(1, i), range);
+    ranges[std::size_t(i)] = range;
+    cell_of[std::size_t(i)] = std::size_t(cell[0] + cells * cell[1]);
+    ++begins[cell_of[std::size_t(i)] + 1];
     (radius < 0.4 ? inner : outer) += range;
     ++(radius < 0.4 ? inner_count : outer_count);
   }
   look.bulge = outer / std::max(1, outer_count) - inner / std::max(1, inner_count);
-  std::size_t layered = 0;
-  std::vector<double> scatters;
-  for (std::vector<Eigen::Vector3d>& cell : pixels) {
-    if (cell.size() < 4)
+  for (std::size_t c = 0; c < cell_count; ++c)
+    begins[c + 1] += begins[c];
+  std::vector<SeenPoint> seen(ranges.size());
+  std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    seen[next[cell_of[i]]++] = {
+        image(0, Eigen::Index(i)), image(1, Eigen::Index(i)), ranges[i]};
+  std::size_t layered = 0, filled = 0;
+  for (std::size_t c = 0; c < cell_count; ++c) {
+    const std::size_t begin = begins[c], end = begins[c + 1];
+    if (end - begin < 4)
       continue;
-    scatters.push_back(scatter(cell));
-    std::sort(cell.begin(), cell.end(), [](const auto& a, const auto& b) {
-      return a.z() < b.z();
-    });
+    ++filled;
+    std::sort(seen.begin() + std::ptrdiff_t(begin),
+              seen.begin() + std::ptrdiff_t(end),
+              [](const SeenPoint& a, const SeenPoint& b) { return a.range < b.range; });
     // a layer is more than a stray point
-    for (std::size_t i = 2; i + 1 < cell.size(); ++i)
-      if (cell[i].z() - cell[i - 1].z() > GAP * extent) {
+    for (std::size_t i = begin + 2; i + 1 < end; ++i)
+      if (seen[i].range - seen[i - 1].range > GAP * extent) {
         ++layered;
         break;
       }
   }
-  if (scatters.empty() || double(layered) > DOUBLE_CELLS * double(scatters.size()))
+  if (filled == 0 || double(layered) > DOUBLE_CELLS * double(filled))
     return look;
+  std::vector<double> scatters;
+  for (std::size_t c = 0; c < cell_count; ++c)
+    if (begins[c + 1] - begins[c] >= 4)
+      scatters.push_back(scatter(&seen[begins[c]], begins[c + 1] - begins[c]));
   const auto middle_one = scatters.begin() + std::ptrdiff_t(scatters.size() / 2);
   std::nth_element(scatters.begin(), middle_one, scatters.end());
   look.once = *middle_one <= SCATTER * extent;

@@ -19,21 +19,46 @@ constexpr double WIDER = 2.0;
 
 } // namespace
 
-void Neighbourhood::collect(Eigen::Index i, double near_enough) {
+Neighbourhood::Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride)
+    : points_(points) {
+  if (points.cols() == 0)
+    return;
+  (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff(&axis_);
+  std::vector<std::pair<double, Eigen::Index>> order;
+  order.reserve(std::size_t(points.cols() / stride + 1));
+  for (Eigen::Index k = 0; k < points.cols(); k += stride)
+    order.emplace_back(points(axis_, k), k);
+  std::sort(order.begin(), order.end());
+  sorted_.resize(3, Eigen::Index(order.size()));
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    along_.push_back(order[k].first);
+    columns_.push_back(order[k].second);
+    sorted_.col(Eigen::Index(k)) = points.col(order[k].second);
+  }
+}
+
+void Neighbourhood::collect(const Eigen::Vector3d& place, double near_enough) {
   found_.clear();
-  const Eigen::Vector3d p = points_.col(i);
-  for (Eigen::Index k = 0; k < points_.cols(); k += stride_)
-    if (const double d = (points_.col(k) - p).squaredNorm(); d < near_enough)
-      found_.push_back({d, k});
+  distances_.clear();
+  const double reach = std::sqrt(near_enough), middle = place[axis_];
+  const auto begin = std::lower_bound(along_.begin(), along_.end(), middle - reach);
+  const auto end = std::upper_bound(begin, along_.end(), middle + reach);
+  for (auto k = std::size_t(begin - along_.begin());
+       k < std::size_t(end - along_.begin());
+       ++k)
+    if (const double d = (sorted_.col(Eigen::Index(k)) - place).squaredNorm();
+        d < near_enough) {
+      distances_.push_back(d);
+      found_.push_back(k);
+    }
 }
 
 const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t count) {
-  collect(i, near_enough_);
+  const Eigen::Vector3d place = points_.col(i);
+  collect(place, near_enough_);
   if (found_.size() < count)
-    collect(i, std::numeric_limits<double>::infinity());
-  values_.clear();
-  for (const Found& f : found_)
-    values_.push_back(f.distance);
+    collect(place, std::numeric_limits<double>::infinity());
+  values_ = distances_;
   spare_.resize(values_.size());
   const double farthest =
       orderStatistic(values_.data(), spare_.data(), values_.size(), count - 1);
@@ -41,8 +66,8 @@ const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t c
   near_.clear();
   const auto take = [&](const auto& wanted) {
     for (std::size_t k = 0; k < found_.size() && near_.size() < count; ++k)
-      if (wanted(found_[k].distance))
-        near_.push_back(found_[k].column);
+      if (wanted(distances_[k]))
+        near_.push_back(columns_[found_[k]]);
   };
   take([farthest](double d) { return d < farthest; });
   take([farthest](double d) { return d == farthest; });
@@ -80,9 +105,8 @@ LocalQuadric localQuadric(const Eigen::Matrix3Xd& points,
 }
 
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::vector<double> spare(values.size());
+  return orderStatistic(values.data(), spare.data(), values.size(), values.size() / 2);
 }
 
 } // namespace pcl_sq::detail

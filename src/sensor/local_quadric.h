@@ -9,27 +9,30 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Nearest neighbours among every stride-th point. */
+/** \brief Nearest neighbours among every stride-th point.
+ *
+ * The points are kept in their order along the longest side of their box: a search
+ * looks at a slab of them. */
 class Neighbourhood {
 public:
-  Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride)
-      : points_(points), stride_(stride) {}
+  Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride);
 
-  /** \brief Columns of the \a count points nearest to the i-th one. */
+  /** \brief Columns of the \a count points nearest to the i-th one, of which there are
+   * as many. */
   const std::vector<Eigen::Index>& of(Eigen::Index i, std::size_t count);
 
 private:
-  struct Found {
-    double distance; ///< squared
-    Eigen::Index column;
-  };
-  /** \brief Points nearer to the i-th one than a squared distance. */
-  void collect(Eigen::Index i, double near_enough);
+  /** \brief Points nearer to a place than a squared distance. */
+  void collect(const Eigen::Vector3d& place, double near_enough);
 
   const Eigen::Matrix3Xd& points_;
-  Eigen::Index stride_;
+  int axis_ = 0;
+  std::vector<Eigen::Index> columns_; ///< in order along the axis
+  std::vector<double> along_;         ///< their coordinate on the axis
+  Eigen::Matrix3Xd sorted_;           ///< themselves
   double near_enough_ = std::numeric_limits<double>::infinity();
-  std::vector<Found> found_;
+  std::vector<double> distances_;  ///< squared, of what was found
+  std::vector<std::size_t> found_; ///< places in the order
   std::vector<double> values_, spare_;
   std::vector<Eigen::Index> near_;
 };

@@ -21,6 +21,12 @@ struct Hopeless {
 /** \brief When the loop ends. */
 struct LmLimits {
   int max_iterations = 30;
+  /** \brief Of a cost, what changes by rounding alone; above 0 only small steps end the
+   * fit: near a minimum costs of residuals in single precision differ by less than
+   * their rounding, which the points' order changes, while the gradient still shows the
+   * way. Steps that promise less than the rounding are then taken, whatever the cost.
+   */
+  double cost_rounding = 0.0;
   double cost_tolerance = 1e-7; ///< relative decrease that ends the fit
   double step_tolerance = 1e-6; ///< largest parameter change that ends the fit
   double initial_damping = 1e-3;
@@ -65,8 +71,9 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
   r.model = start;
   r.equations = problem.evaluate(start);
   r.termination = Termination::MAX_ITERATIONS;
-  const int n = static_cast<int>(basis.cols());
+  const int n = std::min(N, static_cast<int>(basis.cols()));
   const bool all = n == N && basis.isIdentity(0.0);
+  const bool by_steps = limits.cost_rounding > 0.0;
   double damping = limits.initial_damping;
   bool fresh = true; // the equations changed since they were last reduced
   Eigen::Matrix<double, N, N> jtj;
@@ -96,17 +103,24 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
       const double promised = -jtr.head(n).dot(step.head(n));
       const double negligible =
           limits.cost_tolerance * r.equations.points_cost + problem.rounding();
-      if (damping <= 1.0 && promised <= negligible) {
+      if (!by_steps && damping <= 1.0 && promised <= negligible) {
         r.termination = Termination::COST_CHANGE_TOO_SMALL;
         break;
       }
       Eigen::Matrix<double, N, 1> full = basis * step.head(n);
       bool limited = false;
       const typename Problem::Model candidate = problem.moved(r.model, full, limited);
+      const bool short_step = full.cwiseAbs().maxCoeff() <= limits.step_tolerance;
+      if (by_steps && short_step) {
+        r.termination = Termination::STEP_TOO_SMALL;
+        break;
+      }
       const typename Problem::Equations e = problem.evaluate(candidate);
-      if (e.cost < r.equations.cost) {
+      const double rounding = limits.cost_rounding * r.equations.cost;
+      const double slack = promised < rounding ? rounding : 0.0;
+      if (e.cost < r.equations.cost + slack) {
         const double decrease = r.equations.cost - e.cost;
-        const bool small = !limited && decrease <= negligible;
+        const bool small = !by_steps && !limited && decrease <= negligible;
         r.model = candidate;
         r.equations = e;
         fresh = true;
@@ -117,7 +131,7 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
         }
         continue;
       }
-      if (full.cwiseAbs().maxCoeff() <= limits.step_tolerance) {
+      if (short_step) {
         r.termination = Termination::STEP_TOO_SMALL;
         break;
       }

@@ -122,6 +122,8 @@ TEST(TextReader, NamesTheLineThatIsWrong) {
                             ".txt"),
                     {"UTF-16"}));
   EXPECT_TRUE(tells(refusal("LASF\1\2", ".las"), {"LAS"}));
+  EXPECT_TRUE(tells(refusal("\x93NUMPY\1", ".npy"), {"NumPy", "pcl_sq.estimate"}));
+  EXPECT_TRUE(tells(refusal("\x89MCAP0\r\n", ".mcap"), {"ROS 2 bag"}));
   EXPECT_TRUE(tells(refusal("", ".txt"), {"empty"}));
 }
 

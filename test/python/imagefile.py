@@ -46,3 +46,15 @@ def read_png(path):
         image[y] = before = row
     image = image.astype(np.uint8).reshape(height, width, channels)
     return image[:, :, 0] if channels == 1 else image[:, :, :3]
+
+
+def write_png16(path, image):
+    """A grey image of 16 bits."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(
+            ">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in image)
+    with open(path, "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
+            ">IIBBBBB", image.shape[1], image.shape[0], 16, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))

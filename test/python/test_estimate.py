@@ -2,6 +2,7 @@
 """The chain of the programs, from arrays: the same models, the same sentences."""
 import json
 import pickle
+import shutil
 import threading
 
 import numpy as np
@@ -140,6 +141,38 @@ def test_a_stereo_pair_and_a_depth_image_give_the_programs_models(program, tmp_p
         pcl_sq.estimate_stereo(read_png(left), read_png(right), tmp_path / "none.yml")
     with pytest.raises(pcl_sq.OptionError, match="calib"):
         pcl_sq.estimate_stereo(read_png(left), read_png(right))
+
+
+def test_frames_that_follow_each_other_give_the_programs_models(program, tmp_path):
+    pytest.importorskip("pcl_sq._stereo")
+    from imagefile import read_png
+    program("pcl_sq_render", "box", "--rig", "vga", "--out", tmp_path, "-q")
+    calibration = tmp_path / "calib.yml"
+    left, right = read_png(tmp_path / "left.png"), read_png(tmp_path / "right.png")
+    for number in range(3):
+        for side in ("left", "right"):
+            shutil.copy(tmp_path / (side + ".png"), tmp_path / ("%s_%d.png" % (side, number)))
+    program("pcl_sq_stereo", "--sequence", tmp_path / "left_*.png", tmp_path / "right_*.png",
+            "--calib", calibration, "-q", "-o", tmp_path / "models.jsonl")
+    lines = (tmp_path / "models.jsonl").read_text().splitlines()
+    frames = pcl_sq.StereoSequence(calibration)
+    assert [numbers(frames.process(left, right)) for _ in lines] == list(map(numbers, lines))
+    assert len(lines) == 3 and numbers(lines[0]) != numbers(lines[1])  # less was looked at
+    with pytest.raises(pcl_sq.Error, match="320 x 240.*640 x 480"):
+        frames.process(left[:240, :320], right[:240, :320])
+    grey = np.zeros_like(left)
+    with pytest.raises(pcl_sq.Error):
+        frames.process(grey, grey)
+    assert numbers(frames.process(left, right)) == numbers(lines[0])  # starts anew
+
+    camera = json.loads(lines[0])["stereo"]["camera"]
+    depth = np.nan_to_num(pcl_sq.estimate_stereo(left, right, calibration).cloud[:, :, 2])
+    intrinsics = [camera[k] for k in ("fx", "fy", "cx", "cy")]
+    once = pcl_sq.estimate_depth(depth, intrinsics, color=left)
+    depths = pcl_sq.DepthSequence(intrinsics)
+    assert numbers(depths.process(depth, color=left)) == numbers(once)
+    np.testing.assert_allclose(depths.process(depth, color=left).union.bounds,
+                               once.union.bounds, atol=0.003)
 
 
 def test_a_picture_shows_the_model(model):

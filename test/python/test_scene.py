@@ -3,7 +3,6 @@
 import json
 import pickle
 import shutil
-import struct
 import subprocess
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 
 import pcl_sq
 from conftest import numbers, schema
-from imagefile import read_png
+from imagefile import read_png, write_png16
 
 WIDTH, HEIGHT, F = 320, 240, 300.0
 PITCH, LIFT = np.radians(25), 0.40
@@ -117,20 +116,36 @@ def test_depth_images_give_what_the_program_gives(cans, program, tmp_path):
         if "without stereo" in str(error):
             pytest.skip(str(error))
         raise
-    import zlib
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(
-            ">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in cans[2])
-    (tmp_path / "depth.png").write_bytes(
-        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
-            ">IIBBBBB", WIDTH, HEIGHT, 16, 0, 0, 0, 0)) +
-        chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    write_png16(tmp_path / "depth.png", cans[2])
     program("pcl_sq_scene", "--depth", tmp_path / "depth.png", "--intrinsics",
             ",".join(str(k) for k in intrinsics), "-q", "-o", tmp_path / "scene.json")
     assert bodies(found.to_json()) == bodies((tmp_path / "scene.json").read_text())
     assert len(found) == 2
+    # steps of another length, which are not rounded another way
+    write_png16(tmp_path / "fine.png", 7 * cans[2])
+    program("pcl_sq_scene", "--depth", tmp_path / "fine.png", "--depth-scale", "0.000143",
+            "--intrinsics", ",".join(str(k) for k in intrinsics), "-q", "-o",
+            tmp_path / "fine.json")
+    text = bodies((tmp_path / "fine.json").read_text())
+    for steps in (7 * cans[2], 7 * cans[2].astype(np.int64)):
+        fine = pcl_sq.estimate_scene_depth(steps, intrinsics, depth_scale=0.000143)
+        assert bodies(fine.to_json()) == text and len(fine) == 2
+    with pytest.raises(pcl_sq.OptionError, match="depth_scale"):
+        pcl_sq.estimate_scene_depth(cans[2], intrinsics, depth_scale=-1.0)
+
+
+def test_stereo_pairs_give_what_the_program_gives(program, tmp_path):
+    pytest.importorskip("pcl_sq._stereo")
+    program("pcl_sq_render", "box", "--rig", "vga", "--out", tmp_path, "-q")
+    left, right = tmp_path / "left.png", tmp_path / "right.png"
+    program("pcl_sq_scene", left, right, "--calib", tmp_path / "calib.yml", "-q", "-o",
+            tmp_path / "scene.json")
+    found = pcl_sq.estimate_scene_stereo(read_png(left), read_png(right),
+                                         tmp_path / "calib.yml")
+    assert bodies(found.to_json()) == bodies((tmp_path / "scene.json").read_text())
+    assert len(found) == 1 and found.colors.shape == read_png(left).shape
+    with pytest.raises(pcl_sq.OptionError, match="calib"):
+        pcl_sq.estimate_scene_stereo(read_png(left), read_png(right))
 
 
 def test_labels_from_elsewhere_are_used_as_they_are(cans):

@@ -3,7 +3,6 @@
 #include "export/collision_shapes.h"
 #include "export/xml_text.h"
 
-#include "pcl_sq/html_view.h"
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/robot_export.h"
 
@@ -210,25 +209,30 @@ TEST(RobotExport, AMoveItSceneHasItsCountsRight) {
   EXPECT_EQ(line, ".");
 }
 
-TEST(RobotExport, GlbHasANodeForEachPart) {
-  const ModelFile file = fileOf({cup(), body({0.01, 0.02, 0.03}, 0.05, 0.05)});
-  const std::string glb = glbFiles(file)[0].contents;
+/** \brief The description in a binary glTF, whose lengths are those it says. */
+nlohmann::json jsonOf(const std::string& glb) {
   const auto word = [&](std::size_t at) {
     std::uint32_t n = 0;
     std::memcpy(&n, glb.data() + at, 4);
     return std::size_t(n);
   };
-  ASSERT_EQ(glb.substr(0, 4), "glTF");
+  EXPECT_EQ(glb.substr(0, 4), "glTF");
   EXPECT_EQ(word(8), glb.size());
-  const auto json = nlohmann::json::parse(glb.substr(20, word(12)));
+  nlohmann::json json = nlohmann::json::parse(glb.substr(20, word(12)));
   const std::size_t bin = 20 + word(12);
   EXPECT_EQ(glb.substr(bin + 4, 3), "BIN");
   EXPECT_EQ(bin + 8 + word(bin), glb.size());
-  ASSERT_EQ(json["nodes"].size(), 3u);
-  EXPECT_EQ(json["nodes"][1]["name"], "part 1");
   for (const auto& view : json["bufferViews"])
     EXPECT_LE(std::size_t(view["byteOffset"]) + std::size_t(view["byteLength"]),
               word(bin));
+  return json;
+}
+
+TEST(RobotExport, GlbHasANodeForEachPart) {
+  const ModelFile file = fileOf({cup(), body({0.01, 0.02, 0.03}, 0.05, 0.05)});
+  const nlohmann::json json = jsonOf(glbFiles(file)[0].contents);
+  ASSERT_EQ(json["nodes"].size(), 3u);
+  EXPECT_EQ(json["nodes"][1]["name"], "part 1");
   // the root turns up, against the table's -y, to glTF's +y
   const auto& q = json["nodes"][0]["rotation"];
   const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
@@ -243,26 +247,47 @@ TEST(RobotExport, NothingComesOfAnEmptyModelOrBadOptions) {
   EXPECT_TRUE(urdfFiles(fileOf({cup()}), options).empty());
 }
 
-TEST(HtmlView, APageStaysSmallAndHoldsNoEndOfItsScript) {
-  ModelFile file = fileOf({cup(), cup(), cup(), cup(), cup(), cup()});
-  const Eigen::Matrix3Xf points =
-      Eigen::Matrix3Xf::Random(3, 200000) * 0.1F +
-      file.model.parts[0].center.cast<float>().replicate(1, 200000);
-  const std::vector<std::uint32_t> colors(200000, 0x102030);
-  HtmlViewOptions options;
-  options.title = "</script><b>";
-  const std::string html =
-      htmlView(file, points, Eigen::Vector3d::Zero(), colors, options);
-  EXPECT_LT(html.size(), 3u << 20U);
-  EXPECT_EQ(count(html, "</script>"), 1u);
-  EXPECT_EQ(count(html, "http"), 0u); // nothing from elsewhere
-  EXPECT_EQ(count(html, "@DATA@") + count(html, "@TITLE@"), 0u);
+/** \brief A cup and a body of two parts on one table. */
+SceneFile twoThings() {
+  SceneFile scene;
+  scene.frame = "camera";
+  scene.table = {0.0, -1.0, 0.0, 0.1};
+  scene.objects.resize(2);
+  scene.objects[0].file.model.parts = {cup()};
+  scene.objects[1].file.model.parts = {body({0.03, 0.03, 0.05}, 0.1, 1.0),
+                                       body({0.01, 0.02, 0.03}, 0.05, 0.05)};
+  return scene;
 }
 
-TEST(HtmlView, WhatIsNoGraspOfOursIsLeftOut) {
-  ModelFile file = fileOf({cup()});
-  file.extra_json = R"({"gripper": 3, "grasps": {"a": []}, "report": []})";
-  const Eigen::Matrix3Xf none(3, 0);
-  EXPECT_NE(htmlView(file, none, Eigen::Vector3d::Zero(), {}).find("\"grasps\":[]"),
-            std::string::npos);
+TEST(RobotExport, AMoveItSceneHasAnObjectForEachThingAndTheTable) {
+  RobotExportOptions options;
+  options.name = "kitchen";
+  const std::string text = moveitFiles(twoThings(), options)[0].contents;
+  EXPECT_EQ(count(text, "\n* "), 3u);
+  for (const char* name : {"kitchen_1", "kitchen_2", "kitchen_table"})
+    EXPECT_EQ(count(text, "* " + std::string(name) + "\n"), 1u) << name;
+}
+
+TEST(RobotExport, GlbOfASceneNamesThingsAndGivesEachItsColour) {
+  const nlohmann::json json = jsonOf(glbFiles(twoThings())[0].contents);
+  std::vector<std::string> names;
+  std::vector<nlohmann::json> colours;
+  for (const auto& node : json["nodes"])
+    if (node.contains("mesh")) {
+      names.push_back(node["name"]);
+      const auto& primitive = json["meshes"][int(node["mesh"])]["primitives"][0];
+      colours.push_back(json["materials"][int(primitive["material"])]
+                            ["pbrMetallicRoughness"]["baseColorFactor"]);
+    }
+  ASSERT_EQ(
+      names,
+      (std::vector<std::string>{"thing 1", "thing 2, part 1", "thing 2, part 2"}));
+  EXPECT_EQ(colours[1], colours[2]);
+  EXPECT_NE(colours[0], colours[1]);
+}
+
+TEST(RobotExport, NothingComesOfASceneWithoutThingsOrAnotherEnding) {
+  EXPECT_TRUE(robotFiles(".scene", SceneFile()).empty());
+  EXPECT_TRUE(robotFiles(".glb", SceneFile()).empty());
+  EXPECT_TRUE(robotFiles(".urdf", twoThings()).empty()); // one file is one robot
 }

@@ -122,6 +122,24 @@ TEST(OpenBody, DistanceInTheHalfPlaneIsEuclideanForSolidsOfRevolution) {
   }
 }
 
+TEST(OpenBody, ARefinedHalfPlaneGivesTheSameDistances) {
+  Random random(6);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Superquadric s = rounded(anyOpenBody(random, trial % 3 != 0));
+    const detail::Meridian searched(s, Eigen::Vector2d::UnitX());
+    detail::Meridian refined(s, Eigen::Vector2d::UnitX());
+    refined.refine();
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Vector3d p = s.toLocal(random.pointNear(s));
+      const double rho = p.head<2>().norm();
+      EXPECT_NEAR(refined.distance(rho, p.z()),
+                  searched.distance(rho, p.z()),
+                  5e-5 * s.semi_axes.maxCoeff())
+          << trial;
+    }
+  }
+}
+
 TEST(OpenBody, SupportIsTheFarthestVertexOfTheMesh) {
   Random random(5);
   for (int trial = 0; trial < 60; ++trial) {

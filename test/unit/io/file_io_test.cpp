@@ -265,3 +265,19 @@ TEST(FullDisk, LinesStayWhole) {
   ASSERT_TRUE(lines.append("short", &why)) << why;
   EXPECT_EQ(slurp(path), expected + "short\n");
 }
+
+TEST(ReadFile, RefusesWhatStandsInTheFilesPlace) {
+  const Folder folder;
+  const std::string pointer = folder.write(
+      "a.pcd", "version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 9\n");
+  const std::string page =
+      folder.write("b.png", "\n <!DOCTYPE HTML><title>404</title>");
+  std::string bytes = "old", why;
+  EXPECT_FALSE(readFile(pointer, bytes, &why));
+  EXPECT_TRUE(contains(why, "git lfs pull")) << why;
+  EXPECT_TRUE(bytes.empty());
+  EXPECT_FALSE(readFile(page, bytes, &why));
+  EXPECT_TRUE(contains(why, "download")) << why;
+  // a header that says a version is none of them
+  EXPECT_TRUE(readFile(folder.write("c.pcd", "VERSION .7\n"), bytes, &why));
+}

@@ -285,7 +285,7 @@ TEST(ObserveObject, BarePointsOfOneSideGetACameraOnThatSide) {
       if (scene->mask.cells[std::size_t(i)])
         object.col(count++) = scene->points.col(i);
     object.conservativeResize(3, count);
-    for (int turn = 0; turn < 5; ++turn) { // a robot's frame, anywhere
+    for (int turn = 0; turn < 25; ++turn) { // a robot's frame, anywhere
       const Eigen::Matrix3f rotation = random.rotation().cast<float>();
       Eigen::Matrix3Xf moved = rotation * object;
       moved.colwise() += Eigen::Vector3f(0.1f, -0.2f, 0.05f) - moved.rowwise().mean();

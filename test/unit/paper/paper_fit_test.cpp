@@ -106,13 +106,13 @@ TEST(FitSuperquadricPaper, NormalEquationsMatchCentralDifferences) {
       options.cost = cost;
       const detail::PaperProblem problem(points, s, free_axis, options);
       const Eigen::Vector3d x(0.8, 1.1, std::log(1.1 * s.semi_axes[free_axis]));
-      const auto normal = problem.linearise(x);
+      const auto normal = problem.evaluate(x);
       for (int k = 0; k < 3; ++k) {
         const double h = 1e-3; // the sums are made of floats
         const Eigen::Vector3d d = h * Eigen::Vector3d::Unit(k);
         const double slope =
-            (problem.linearise(x + d).cost - problem.linearise(x - d).cost) / (2 * h);
-        EXPECT_NEAR(2.0 * normal.gradient[k], slope, 2e-3 * std::abs(slope) + 1e-5);
+            (problem.evaluate(x + d).cost - problem.evaluate(x - d).cost) / (2 * h);
+        EXPECT_NEAR(2.0 * normal.jtr[k], slope, 2e-3 * std::abs(slope) + 1e-5);
       }
     }
 }
