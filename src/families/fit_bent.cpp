@@ -192,23 +192,24 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       chosen = c;
     return rod;
   };
-  for (const Rod& start : found) {
-    Rod rod = take(start);
-    if (is_handle)
-      continue;
-    rod.round = false;
+  for (Rod& rod : found)
     rod = take(rod);
-    if (!problem.hasUp() ||
-        !(std::abs(rod.model.rotation.col(1).dot(problem.up())) > UPRIGHT))
-      continue;
-    rod.held = true;
-    rod.model = upright(rod.model, 1, problem.up());
-    take(rod);
-    rod.round = true;
-    rod.model.semi_axes.head<2>().setConstant(
-        std::sqrt(rod.model.semi_axes.x() * rod.model.semi_axes.y()));
-    take(rod);
-  }
+  if (is_handle)
+    return chosen;
+  // flat or lying down, from the better one
+  Rod rod = *std::min_element(found.begin(), found.end(), cheaper);
+  rod.round = false;
+  rod = take(rod);
+  if (!problem.hasUp() ||
+      !(std::abs(rod.model.rotation.col(1).dot(problem.up())) > UPRIGHT))
+    return chosen;
+  rod.held = true;
+  rod.model = upright(rod.model, 1, problem.up());
+  take(rod);
+  rod.round = true;
+  rod.model.semi_axes.head<2>().setConstant(
+      std::sqrt(rod.model.semi_axes.x() * rod.model.semi_axes.y()));
+  take(rod);
   return chosen;
 }
 

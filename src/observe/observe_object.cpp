@@ -81,6 +81,7 @@ void addHiddenEnds(const ObservedObject& object,
       all.push_back(foot);
     }
   }
+  const std::size_t first = limits.size();
   const std::vector<SilhouetteLine> known = silhouetteLines(object.contour, lines);
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
     const bool is_known =
@@ -90,8 +91,12 @@ void addHiddenEnds(const ObservedObject& object,
     if (is_known)
       continue;
     limits.push_back(tangentPlane(object.camera, line, 1.0, object.depth));
-    limits.back().sigma = HIDDEN_SIGMA * object.extent;
   }
+  // how far the object goes on is one thing that is not known, not one for each line
+  const double sigma =
+      HIDDEN_SIGMA * object.extent * std::sqrt(double(limits.size() - first));
+  for (std::size_t i = first; i < limits.size(); ++i)
+    limits[i].sigma = sigma;
 }
 
 } // namespace
