@@ -95,9 +95,17 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
   const Round round =
       p.hasView() ? seenRound(p.medium(), s) : wholeRound(p.medium(), s);
   Interval high = extentAlong(p.medium(), up);
+  // down to the table, or to what hides the rest
+  double lowest = high.high - 1e-3;
+  bool ends = false;
   for (const TangentPlane& plane : p.tangents())
-    if (plane.normal.dot(up) < -UPRIGHT)
-      high.low = std::min(-plane.offset, high.high - 1e-3);
+    if (const double down = plane.normal.dot(up); down < -UPRIGHT) {
+      ends = true;
+      lowest =
+          std::min(lowest, (plane.offset - plane.normal.dot(round.middles[0])) / down);
+    }
+  if (ends)
+    high.low = lowest;
   const double radius = std::max(round.radius, 1e-3);
   std::vector<Superquadric> starts;
   for (const Kind& kind : KINDS) {

@@ -59,17 +59,55 @@ namespace {
 
 using namespace tuning::observe_object;
 
+bool knows(const std::vector<SilhouetteLine>& lines, const SilhouetteLine& line) {
+  return std::any_of(lines.begin(), lines.end(), [&](const SilhouetteLine& other) {
+    return other.direction == line.direction;
+  });
+}
+
+std::vector<ContourPoint> asOwn(std::vector<ContourPoint> contour) {
+  for (ContourPoint& p : contour)
+    p.own = true;
+  return contour;
+}
+
 /** \brief Where the outline is not the object's own, at an occluder or the border of
- * the image, nobody knows how it goes on: a model ends about there unless evidence says
- * more. */
+ * the image, nobody knows how it goes on. A body reaches to there, for it is seen, and
+ * ends about there unless evidence says more.
+ * \param[in] outline of the object or of a piece of it
+ * \param[in] known lines of that */
 void addHiddenEnds(const ObservedObject& object,
+                   const std::vector<ContourPoint>& outline,
+                   const std::vector<SilhouetteLine>& known,
                    int lines,
-                   std::vector<TangentPlane>& limits) {
+                   ViewEvidence& evidence) {
   if (object.pixels.cells.empty())
     return;
-  std::vector<ContourPoint> all = object.contour;
-  for (ContourPoint& p : all)
-    p.own = true;
+  const auto endOf = [&object](const SilhouetteLine& line) {
+    TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
+    end.sigma = HIDDEN_SIGMA * object.extent;
+    return end;
+  };
+  const CellMask& mask = object.pixels;
+  const auto atBorder = [&mask](const Eigen::Vector2d& p) {
+    return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
+           p.y() > mask.height - 2.0;
+  };
+  // a piece's other ends are its joints; of the image's border its whole side counts,
+  // not its corners, or a foot would be drawn on beyond it that nobody has seen
+  const double side = TOUCHES / std::sin(0.75 * 2.0 * M_PI / std::max(8, lines));
+  const auto endsAt = [&](const SilhouetteLine& line) {
+    const Eigen::Vector2d along(-line.direction.y(), line.direction.x());
+    double low = 1e300, high = -1e300;
+    for (const ContourPoint& p : object.contour)
+      if (!p.own && object.outline == OutlineSource::MASK &&
+          std::abs(line.direction.dot(p.pixel) - line.offset) <= TOUCHES) {
+        low = std::min(low, along.dot(p.pixel));
+        high = std::max(high, along.dot(p.pixel));
+      }
+    return high - low >= (atBorder(line.contact) ? side : 0.0);
+  };
+  std::vector<ContourPoint> all = asOwn(object.contour);
   // it stands on the table, however little of it is seen
   if (object.table && object.hidden_below) {
     const Eigen::Index step = std::max<Eigen::Index>(1, object.points.cols() / FEET);
@@ -81,16 +119,22 @@ void addHiddenEnds(const ObservedObject& object,
       all.push_back(foot);
     }
   }
+  std::vector<TangentPlane>& limits = evidence.limits;
   const std::size_t first = limits.size();
-  const std::vector<SilhouetteLine> known = silhouetteLines(object.contour, lines);
+  const std::vector<SilhouetteLine> pieces = silhouetteLines(asOwn(outline), lines);
+  const std::vector<SilhouetteLine> own = silhouetteLines(object.contour, lines);
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
-    const bool is_known =
-        std::any_of(known.begin(), known.end(), [&](const SilhouetteLine& other) {
-          return other.direction == line.direction;
+    const auto reached =
+        std::find_if(pieces.begin(), pieces.end(), [&](const SilhouetteLine& other) {
+          return other.direction == line.direction && endsAt(other);
         });
-    if (is_known)
-      continue;
-    limits.push_back(tangentPlane(object.camera, line, 1.0, object.depth));
+    // a foot that nobody sees is beyond what is reached
+    const bool is_seen = object.pixels(int(line.contact.x()), int(line.contact.y()));
+    const bool reaches = is_seen && reached != pieces.end() && !knows(known, line);
+    if (reaches)
+      evidence.tangents.push_back(endOf(*reached));
+    if (!knows(own, line) && !(reaches && reached->offset == line.offset))
+      limits.push_back(endOf(line));
   }
   // how far the object goes on is one thing that is not known, not one for each line
   const double sigma =
@@ -105,15 +149,17 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
                                       int lines,
                                       bool on_table) const {
   ViewEvidence e;
+  std::vector<SilhouetteLine> known;
   if (hasCamera()) {
-    for (SilhouetteLine& line : silhouetteLines(outline_points, lines)) {
+    known = silhouetteLines(outline_points, lines);
+    for (SilhouetteLine line : known) {
       line.offset -= outline_offset;
       e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
     }
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
-  addHiddenEnds(*this, lines, e.limits);
+  addHiddenEnds(*this, outline_points, known, lines, e);
   if (table) {
     e.up = table->normal;
     TangentPlane below;

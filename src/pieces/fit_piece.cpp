@@ -31,6 +31,25 @@ Heights heightsOf(const TableModel& table, const Eigen::Matrix3Xd& points) {
   return {lowest, *high};
 }
 
+/** \brief Half the diagonal of what is seen of a piece, with its points or without, at
+ * their depth: where an image does not show its neighbour's left edge nothing is
+ * matched. */
+double halfSeen(const PieceContext& context,
+                const Piece& piece,
+                const Eigen::Matrix3Xd& points) {
+  const double of_points = halfDiagonal(points);
+  const ObservedObject& o = context.observed;
+  if (o.pixels.cells.empty() || piece.pixels.empty())
+    return of_points;
+  Eigen::Vector2d low = piece.pixels.front(), high = low;
+  for (const Eigen::Vector2d& p : piece.pixels) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Eigen::Vector2d focal(o.camera.fx, o.camera.fy);
+  return std::max(of_points, 0.5 * o.depth * (high - low).cwiseQuotient(focal).norm());
+}
+
 /** \brief Whether a piece reaches the table: its lowest points are on it, or, where
  * nobody sees the object's foot, they are its lowest. */
 bool reachesTable(const PieceContext& context, const Heights& heights) {
@@ -54,7 +73,7 @@ void fitPiece(const PieceContext& context,
     options.max_epsilon = std::min(options.max_epsilon, PART_EPSILON);
   options.noise = context.noise;
   options.effective_points = std::max(12.0, share * o.effective_points);
-  options.max_semi_axis = 1.5 * halfDiagonal(points);
+  options.max_semi_axis = 1.5 * halfSeen(context, piece, points);
   options.precision.clear(); // fitObject() knows it of each point, see isValid()
   if (!context.precision.empty())
     for (const int i : piece.points)

@@ -55,6 +55,8 @@ namespace observe_object {
 /// [size] how well the edge of an occluder, or of the image, says where a thing ends;
 /// most of it is seen, or nobody would have pointed at it
 inline constexpr double HIDDEN_SIGMA = 0.05;
+/// [px] from a line that touches the outline; SilhouetteLine's own
+inline constexpr double TOUCHES = 1.5;
 /// [points] dropped to the table; budget
 inline constexpr std::ptrdiff_t FEET = 200;
 /// [1] of the distance: nearer viewpoints are estimates of the same; chosen

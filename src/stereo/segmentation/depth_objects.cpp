@@ -2,6 +2,7 @@
 #include "stereo/segmentation/depth_objects.h"
 
 #include "pcl_sq/object_view.h"
+#include "stereo/segmentation/depth_odds.h"
 #include "stereo/segmentation/depth_patches.h"
 
 #include <opencv2/imgproc.hpp>
@@ -213,7 +214,6 @@ bool depthOddsInBox(const ColorCloud& cloud,
   const auto main = std::size_t(best - sizes.begin());
   const cv::Vec2f own = range(main);
   cv::Mat object = patches == static_cast<int>(main);
-  int others_in = in_box[main], others_all = all[main];
   for (std::size_t k = 1; k < sizes.size(); ++k) {
     if (k == main || in_box[k] < 5 || in_box[k] < IN_BOX * all[k])
       continue;
@@ -221,25 +221,17 @@ bool depthOddsInBox(const ColorCloud& cloud,
     if (its[0] < own[0] - 2.0F * tolerance || its[1] > own[1] + 2.0F * tolerance)
       continue;
     object |= patches == static_cast<int>(k);
-    others_in += in_box[k];
-    others_all += all[k];
   }
-  // depth that goes on beyond the box tells less where the object ends, and what is as
-  // usual around the box as in it tells nothing
   const cv::Mat known = finiteCells(grid);
-  const int known_in = cv::countNonZero(cells & known);
-  const int known_out = int(grid.finite.size()) - known_in;
-  const double usual_in = (others_in + 1.0) / (known_in + 1.0);
-  const double usual_out = (others_all - others_in + 1.0) / (known_out + 1.0);
-  const auto told = float(std::clamp(
-      std::log(usual_in / usual_out), 0.0, MOST * others_in / double(others_all)));
+  const cv::Mat told =
+      grid.toPixels(oddsOfDepths(grid, object, cells, tolerance, MOST));
   const cv::Mat mine = grid.toPixels(object);
   const cv::Mat others = grid.toPixels(known & ~object) & ~mine;
   const cv::Mat to_mine = distanceTo(mine), to_others = distanceTo(others);
   odds = cv::Mat::zeros(window.size(), CV_32F);
   odds.forEach<float>([&](float& o, const int* at) {
     if (mine.at<std::uint8_t>(at[0], at[1]) != 0)
-      o = told *
+      o = told.at<float>(at[0], at[1]) *
           std::min(1.0F, to_others.at<float>(at[0], at[1]) / static_cast<float>(RIM));
     else if (others.at<std::uint8_t>(at[0], at[1]) != 0)
       o = -float(MOST) *

@@ -78,9 +78,11 @@ TEST(ObservedObject, LetsAModelEndAboutWhereTheImageCutsTheObject) {
   ObservedObject object;
   ASSERT_TRUE(observeObject(points, scene.width, height, {}, view, object));
   const ViewEvidence evidence = object.evidence(object.contour, 36, false);
-  ASSERT_FALSE(evidence.limits.empty());
-  double out = -1e300; // of the whole body, beyond any of the limits, in their sigmas
-  for (const TangentPlane& limit : evidence.limits)
-    out = std::max(out, limit.residual(scene.object.parts[0]) / limit.sigma);
+  std::vector<TangentPlane> ends = evidence.tangents;
+  ends.insert(ends.end(), evidence.limits.begin(), evidence.limits.end());
+  ASSERT_FALSE(ends.empty());
+  double out = -1e300; // of the whole body, beyond any of them, in their sigmas
+  for (const TangentPlane& end : ends)
+    out = std::max(out, end.residual(scene.object.parts[0]) / end.sigma);
   EXPECT_GT(out, 3.0);
 }
