@@ -57,10 +57,12 @@ void addViewOptions(CLI::App& cli, ModelOptions& options) {
                  "Number of superquadrics; 0: found")
       ->check(wholeNumber(0, 64))
       ->capture_default_str();
-  cli.add_option("--max-parts",
-                 options.estimation.object_fit.max_parts,
-                 "Largest number of superquadrics that is looked for; 0: 6 where a "
-                 "camera saw the object, 16 for a cloud from all round")
+  cli.add_option(
+         "--max-parts",
+         options.estimation.object_fit.max_parts,
+         "Largest number of superquadrics that is looked for; 0: 6 where a "
+         "camera saw the object, 16 for a cloud from all round, of which a number "
+         "that is given asks for more detail")
       ->check(wholeNumber(0, 64))
       ->capture_default_str();
 #ifdef PCL_SQ_HAVE_OPENCV

@@ -10,7 +10,8 @@ namespace pcl_sq {
 /** \brief Settings of fitObject(). */
 struct PCL_SQ_EXPORTS ObjectFitOptions {
   /** \brief Largest number of parts that is looked for, [0, 64]; 0: 6 where a camera
-   * saw the object, 16 where it is seen from all round. */
+   * saw the object, 16 where it is seen from all round. A number that is given for the
+   * latter asks for detail: parts that explain no more than .5 % of its size. */
   int max_parts = 0;
   int parts = 0;             ///< number of parts; 0: found, [0, 64]
   int silhouette_lines = 48; ///< per part, [8, 360]

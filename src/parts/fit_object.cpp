@@ -14,6 +14,7 @@
 #include "view_fit/search_view.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_sq {
 
@@ -83,9 +84,13 @@ bool fitWholeVessel(PieceContext& context, std::vector<Piece>& pieces) {
   return true;
 }
 
-/** \brief The parts of a whole cloud, solids all of them. */
-std::vector<Piece>
-splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gain) {
+/** \brief The parts of a whole cloud, solids all of them.
+ * \param[in] points_noise without the model's error [m] */
+std::vector<Piece> splitSolids(const PieceContext& context,
+                               double points_noise,
+                               Piece whole,
+                               int wanted,
+                               double min_gain) {
   const bool exactly = context.options.parts > 0;
   ObjectFitOptions options = context.options;
   options.fit.vessel = false;
@@ -93,9 +98,11 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
       context.observed, options, context.noise, context.precision, context.limits};
   // whoever names a largest number asks for the detail that so many tell
   if (options.max_parts == 0 || exactly) {
-    const double coarse = COARSE_ERROR * context.observed.extent;
-    solids.noise = std::max(context.noise, coarse);
-    min_gain = std::max(min_gain, COARSE_GAIN * context.observed.effective_points);
+    solids.noise = std::max(context.noise, COARSE_ERROR * context.observed.extent);
+    // what the points' own noise leaves of sigma is the model's error, and no evidence
+    const double systematic = 1.0 - std::pow(points_noise / solids.noise, 2);
+    min_gain = std::max(min_gain,
+                        systematic * COARSE_GAIN * context.observed.effective_points);
   }
   fitPiece(solids, whole, Effort::AGAIN);
   std::vector<Piece> pieces =
@@ -223,13 +230,13 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
   if (!pieces[0].fit.fit.ok())
     return fit;
   if (split) {
-    context.noise =
-        Eigen::Vector3d(measured ? noise : std::min(noise, pieces[0].fit.noise),
-                        MODEL_ERROR * observed.extent,
-                        measured || observed.pixels.cells.empty()
-                            ? 0.0
-                            : SENSOR_ERROR * observed.depth)
-            .norm();
+    const double points_noise = measured ? noise : std::min(noise, pieces[0].fit.noise);
+    context.noise = Eigen::Vector3d(points_noise,
+                                    MODEL_ERROR * observed.extent,
+                                    measured || observed.pixels.cells.empty()
+                                        ? 0.0
+                                        : SENSOR_ERROR * observed.depth)
+                        .norm();
     if (observed.hasCamera())
       fitPiece(context, pieces[0], Effort::AGAIN);
     else { // beyond the points of all sides there is nothing
@@ -249,7 +256,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
       if (options.parts == 0)
         takeWholeIfBetter(context, whole, pieces);
     } else if (!fitWholeVessel(context, pieces))
-      pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
+      pieces =
+          splitSolids(context, points_noise, std::move(pieces[0]), wanted, min_gain);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
   fit.model = modelOf(pieces);

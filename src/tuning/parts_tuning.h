@@ -144,8 +144,8 @@ inline constexpr double MODEL_ERROR = 0.005;
 /// [size] detail of a whole cloud that is worth no part unless it is asked for: twice
 /// MODEL_ERROR, or the parts of real things follow their dents, each cloud's others
 inline constexpr double COARSE_ERROR = 0.01;
-/// [1] of the score over the observations that another part is worth there: it takes
-/// the tenth of all points from sigma to the surface, or a hundredth from afar; odds
+/// [1] of the score over the observations that another part is worth there, where all
+/// of sigma is the model's error: a tenth of the points one sigma off; chosen
 inline constexpr double COARSE_GAIN = 0.1;
 /// [depth] what neighbours share and their scatter does not show: locking to whole
 /// pixels, smoothing over the window; stereo and depth cameras

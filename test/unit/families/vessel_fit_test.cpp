@@ -2,9 +2,13 @@
 // Open vessels seen once: bowls, mugs, plates.
 #include "pcl_sq/view_fit.h"
 
+#include "families/vessel_problem.h"
 #include "fit_scene.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace pcl_sq;
 using namespace pcl_sq::test;
@@ -38,6 +42,29 @@ ViewScene finerScene() {
 }
 
 } // namespace
+
+TEST(VesselStarts, AHandleDoesNotMoveTheAxisOfACupFromAllRound) {
+  Random random(4);
+  Eigen::Matrix3Xd points(3, 2000);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double turn = random.uniform(0.0, 2.0 * M_PI);
+    const double radius = i % 2 ? 0.040 : 0.036;
+    if (i % 10 == 0) // the handle, at x of 40 to 65 mm
+      points.col(i) << random.uniform(0.04, 0.065), random.uniform(-0.005, 0.005),
+          random.uniform(0.02, 0.08);
+    else
+      points.col(i) << radius * std::cos(turn), radius * std::sin(turn),
+          random.uniform(0.0, 0.1);
+  }
+  detail::ViewProblem problem;
+  ASSERT_TRUE(problem.prepare(points, {}, {}));
+  const detail::Normalisation& frame = problem.frame();
+  const Eigen::Vector3d up = frame.axes.transpose() * Eigen::Vector3d::UnitZ();
+  double nearest = 1e300;
+  for (const Superquadric& start : detail::vesselStarts(problem, up))
+    nearest = std::min(nearest, frame.toCloud(start).center.head<2>().norm());
+  EXPECT_LT(nearest, 0.004) << "a tenth of the radius";
+}
 
 TEST(VesselFit, BowlPotAndPlateAreOpenAndTrueToSize) {
   struct Kind {

@@ -70,6 +70,25 @@ Eigen::Matrix3Xd pan() {
   return points;
 }
 
+/** \brief Points in the faces of a box, without noise. */
+void addFaces(const Eigen::Vector3d& semi_axes,
+              const Eigen::Vector3d& center,
+              int count,
+              Random& random,
+              std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d area(semi_axes.y() * semi_axes.z(),
+                             semi_axes.z() * semi_axes.x(),
+                             semi_axes.x() * semi_axes.y());
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < int(count * area[axis] / area.sum()); ++i) {
+      Eigen::Vector3d p;
+      for (int k = 0; k < 3; ++k)
+        p[k] = semi_axes[k] * random.uniform(-1.0, 1.0);
+      p[axis] = i % 2 ? semi_axes[axis] : -semi_axes[axis];
+      points.emplace_back(center + p);
+    }
+}
+
 ObservedObject observe(const Eigen::Matrix3Xd& points, Coverage coverage) {
   ViewOptions view;
   view.coverage = coverage;
@@ -130,6 +149,31 @@ TEST(WholeCloud, EveryLegOfATableIsAPart) {
     EXPECT_LT(nearest, 0.03) << "part " << k;
     EXPECT_NEAR(longest, object.parts[k].semi_axes.maxCoeff(), 0.05) << "part " << k;
   }
+}
+
+TEST(WholeCloud, FacesWithoutAnyNoiseAreSplitAsOthersAre) {
+  Random random(3);
+  std::vector<Eigen::Vector3d> faces;
+  addFaces({0.5, 0.35, 0.02}, {0.0, 0.0, 0.72}, 2000, random, faces);
+  for (const double x : {-0.42, 0.42})
+    for (const double y : {-0.28, 0.28})
+      addFaces({0.025, 0.025, 0.35}, {x, y, 0.35}, 250, random, faces);
+  Eigen::Matrix3Xd points(3, Eigen::Index(faces.size()));
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    points.col(Eigen::Index(i)) = faces[i];
+  EXPECT_EQ(fitObject(observe(points, Coverage::COMPLETE)).model.size(), 5u);
+}
+
+TEST(WholeCloud, ABeltOfHardlyMoreThanAHundredthIsNoPartUnlessManyAreAskedFor) {
+  // sigma .01 of the half diagonal is 2 mm, the belt stands off by 3 mm
+  MultiSuperquadric belted;
+  belted.parts = {boxAt({0.1, 0.1, 0.15}, Eigen::Vector3d::Zero()),
+                  boxAt({0.103, 0.103, 0.05}, Eigen::Vector3d::Zero())};
+  const ObservedObject observed = observe(outsideOf(belted, 2e4), Coverage::COMPLETE);
+  EXPECT_EQ(fitObject(observed).model.size(), 1u);
+  ObjectFitOptions detail;
+  detail.max_parts = 8;
+  EXPECT_GT(fitObject(observed, detail).model.size(), 1u);
 }
 
 TEST(WholeCloud, AFreeNumberOfPartsIsNoWorseThanAGivenOne) {
