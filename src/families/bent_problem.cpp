@@ -45,11 +45,9 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Place foot;
     const BodyRow body = footPointRow(s, points_[i].cast<double>(), &foot);
-    // the surface moves on along its normal
-    const Eigen::Vector3d gradient = logGradient(s, foot);
-    const Vector row = rowOf(body.derivatives,
-                             -gradient.dot(bendVelocity(s, foot.unbent)) /
-                                 std::max(gradient.norm(), 1e-300));
+    // the surface moves on along its normal, as it does with the centre
+    const Vector row = rowOf(
+        body.derivatives, body.derivatives.head<3>().dot(bendVelocity(s, foot.unbent)));
     const double q = precision ? double(precision[i]) : 1.0;
     addPoint(density, q, body.value, row, e);
   }

@@ -170,7 +170,8 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   for (Rod& rod : found)
     rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
-  found.resize(std::min(found.size(), KEPT));
+  // from all round the rough fits tell more of a rod than from one side
+  found.resize(std::min(found.size(), problem.eye() ? KEPT : 1));
   // of what is not bent, a bottle for instance, no arc is nearer to the points
   if (found.empty() ||
       (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) <
@@ -191,23 +192,24 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       chosen = c;
     return rod;
   };
-  for (const Rod& start : found) {
-    Rod rod = take(start);
-    if (is_handle)
-      continue;
-    rod.round = false;
+  for (Rod& rod : found)
     rod = take(rod);
-    if (!problem.hasUp() ||
-        !(std::abs(rod.model.rotation.col(1).dot(problem.up())) > UPRIGHT))
-      continue;
-    rod.held = true;
-    rod.model = upright(rod.model, 1, problem.up());
-    take(rod);
-    rod.round = true;
-    rod.model.semi_axes.head<2>().setConstant(
-        std::sqrt(rod.model.semi_axes.x() * rod.model.semi_axes.y()));
-    take(rod);
-  }
+  if (is_handle)
+    return chosen;
+  // flat or lying down, from the better one
+  Rod rod = *std::min_element(found.begin(), found.end(), cheaper);
+  rod.round = false;
+  rod = take(rod);
+  if (!problem.hasUp() ||
+      !(std::abs(rod.model.rotation.col(1).dot(problem.up())) > UPRIGHT))
+    return chosen;
+  rod.held = true;
+  rod.model = upright(rod.model, 1, problem.up());
+  take(rod);
+  rod.round = true;
+  rod.model.semi_axes.head<2>().setConstant(
+      std::sqrt(rod.model.semi_axes.x() * rod.model.semi_axes.y()));
+  take(rod);
   return chosen;
 }
 
@@ -216,7 +218,9 @@ void fitBentAllPoints(const ViewProblem& problem,
                       ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma), start, ITERATIONS);
+  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma),
+                         start,
+                         problem.eye() ? ITERATIONS : 6);
   if (!(rod.cost < 1e299))
     return;
   chosen.bic += rod.cost - chosen.cost;

@@ -246,15 +246,29 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   for (Vessel& v : found)
     v = rough.fit(v, SEARCH_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
-  found.resize(std::min(found.size(), KEPT));
+  if (problem.eye()) // from all round only the noise that each leaves tells them apart
+    found.resize(std::min(found.size(), KEPT));
   const VesselFamily thorough(problem, problem.medium(), sigma);
   for (Vessel& v : found)
     v = thorough.fit(v, ITERATIONS);
+  if (!problem.eye()) {
+    // the one that explains most points: noise may be small about few of them
+    std::optional<ShapeCandidate> chosen;
+    double most = 0.0;
+    for (const Vessel& v : found)
+      if (const auto c = fromAllRound(problem, sigma, v, *best)) {
+        const double near =
+            nearShare(problem.medium(), STANDS_OFF * MODEL_ERROR, c->model);
+        if (near > most) {
+          most = near;
+          chosen = c;
+        }
+      }
+    return chosen;
+  }
   const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
   if (!(vessel.cost < 1e299))
     return std::nullopt;
-  if (!problem.eye())
-    return fromAllRound(problem, sigma, vessel, *best);
   const ShapeCandidate c = candidateOf(vessel, problem);
   if (!beatsSolids(problem, sigma, c, candidates))
     return std::nullopt;

@@ -17,31 +17,30 @@ using namespace tuning::shared;
 
 /** \brief The nearest place of a polyline. */
 struct Foot {
-  double distance = 1e300;
+  double square = 1e300;               ///< of the distance
   const ProfileVertex* from = nullptr; ///< of the chord
   double share = 0.0;                  ///< along it
-  Eigen::Vector2d at;
+
+  Eigen::Vector2d at() const { return (1.0 - share) * from[0].at + share * from[1].at; }
 };
 
-template <std::size_t COUNT>
-void takeNearest(const std::array<ProfileVertex, COUNT>& line,
+using OuterChords = Chords<VesselProfile::OUTER + 1>;
+using InnerChords = Chords<VesselProfile::INNER + 1>;
+
+template <std::size_t VERTICES, std::size_t COUNT>
+void takeNearest(const std::array<ProfileVertex, VERTICES>& line,
+                 const Chords<COUNT>& chords,
                  const Eigen::Vector2d& p,
                  Foot& foot) {
-  double least = foot.distance * foot.distance;
-  for (std::size_t i = 0; i + 1 < COUNT; ++i) {
-    const ProfileVertex& v = line[i];
-    const Eigen::Vector2d to = p - v.at;
-    const double share = std::clamp(to.dot(v.side) * v.inverse_square, 0.0, 1.0);
-    const double square = (to - share * v.side).squaredNorm();
-    if (square < least) {
-      least = square;
-      foot.from = &v;
-      foot.share = share;
-    }
-  }
-  foot.distance = std::sqrt(least);
-  if (foot.from)
-    foot.at = (1.0 - foot.share) * foot.from[0].at + foot.share * foot.from[1].at;
+  std::array<double, COUNT> squares;
+  chords.squaresTo(p, squares);
+  const auto least = std::min_element(squares.begin(), squares.end());
+  if (!(*least < foot.square))
+    return;
+  const auto i = std::size_t(least - squares.begin());
+  foot.square = *least;
+  foot.from = &line[i];
+  foot.share = chords.shareAt(i, p.x() - chords.x[i], p.y() - chords.y[i]);
 }
 
 } // namespace
@@ -70,14 +69,16 @@ VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
 
 double VesselProblem::insideShare(const Superquadric& s) const {
   const VesselProfile profile(s);
+  const OuterChords outside(profile.outside);
+  const InnerChords within(profile.inside);
   double inside = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector3d p = s.toLocal(points_[i].cast<double>());
     const Eigen::Vector2d place(p.head<2>().norm(), p.z());
     Foot outer, inner;
-    takeNearest(profile.outside, place, outer);
-    takeNearest(profile.inside, place, inner);
-    inside += inner.distance < outer.distance;
+    takeNearest(profile.outside, outside, place, outer);
+    takeNearest(profile.inside, within, place, inner);
+    inside += inner.square < outer.square;
   }
   return inside / double(points_.size());
 }
@@ -88,6 +89,8 @@ void VesselProblem::addPoints(const Superquadric& s,
   const RobustCost density{limits_.sigma > 0.0 ? limits_.sigma : 1.0, limits_.outlier};
   const float* precision = points_.view().precision;
   const double rim = profile.rimHeight(), opening = profile.opening();
+  const OuterChords outside(profile.outside);
+  const InnerChords inside(profile.inside);
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();
   const bool above = eye_ && (eye = s.toLocal(*eye_)).z() > rim;
   const double margin = 2.0 * pixel_;
@@ -104,16 +107,17 @@ void VesselProblem::addPoints(const Superquadric& s,
     const Eigen::Vector2d place(rho, p.z());
     Foot foot;
     if (outer)
-      takeNearest(profile.outside, place, foot);
+      takeNearest(profile.outside, outside, place, foot);
     if (inner)
-      takeNearest(profile.inside, place, foot);
+      takeNearest(profile.inside, inside, place, foot);
     if (!foot.from)
       continue;
-    Eigen::Vector2d n = place - foot.at;
-    if (foot.distance > 1e-9)
-      n /= foot.distance;
+    Eigen::Vector2d n = place - foot.at();
+    const double distance = std::sqrt(foot.square);
+    if (distance > 1e-9)
+      n /= distance;
     else {
-      const Eigen::Vector2d& side = foot.from->side;
+      const Eigen::Vector2d side = foot.from[1].at - foot.from[0].at;
       n = Eigen::Vector2d(side.y(), -side.x()).normalized();
     }
     const Eigen::Vector3d normal(rho > 0.0 ? n.x() * p.x() / rho : n.x(),
@@ -126,7 +130,7 @@ void VesselProblem::addPoints(const Superquadric& s,
                       foot.share * (n.transpose() * foot.from[1].d))
                          .transpose();
     const double q = precision ? double(precision[i]) : 1.0;
-    addPoint(density, q, foot.distance, row, e);
+    addPoint(density, q, distance, row, e);
   }
   e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
 }

@@ -76,15 +76,6 @@ Latitude between(const Latitude& low, const Latitude& high, double share) {
           (1.0 - share) * low.d + share * high.d};
 }
 
-template <std::size_t COUNT>
-void measure(std::array<ProfileVertex, COUNT>& line) {
-  for (std::size_t i = 0; i + 1 < COUNT; ++i) {
-    line[i].side = line[i + 1].at - line[i].at;
-    const double square = line[i].side.squaredNorm();
-    line[i].inverse_square = square > 0.0 ? 1.0 / square : 0.0;
-  }
-}
-
 } // namespace
 
 VesselProfile::VesselProfile(const Superquadric& s) {
@@ -108,8 +99,6 @@ VesselProfile::VesselProfile(const Superquadric& s) {
   inside[0].at.x() = 0.0;
   inside[0].d.row(0).setZero();
   outside[OUTER + 1] = inside[INNER + 1];
-  measure(outside);
-  measure(inside);
 }
 
 } // namespace pcl_sq::detail

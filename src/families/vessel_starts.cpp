@@ -37,6 +37,50 @@ Interval extentAlong(const UnitPoints& points, const Eigen::Vector3d& axis) {
   return {low, *(along.end() - 1 - cut)};
 }
 
+/** \brief Where a vessel's axis may be across a direction, and its radius. */
+struct Round {
+  std::vector<Eigen::Vector3d> middles;
+  double radius = 0.0;
+};
+
+/** \brief From the near outside to the far inside, and from side to side. */
+Round seenRound(const UnitPoints& points, const Superquadric& s) {
+  const Interval across = extentAlong(points, s.rotation.col(0)),
+                 deep = extentAlong(points, s.rotation.col(1));
+  return {{across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1)},
+          across.half()};
+}
+
+/** \brief From all round: a handle makes it wider in one direction, not in the
+ * narrowest one; the body is then at either end. */
+Round wholeRound(const UnitPoints& points, const Superquadric& s) {
+  constexpr int DIRECTIONS = 12;
+  constexpr double NO_HANDLE = 0.1; // of the radius: fingers go through one
+  Interval narrow{0.0, 1e300};
+  Eigen::Vector3d direction = s.rotation.col(0);
+  for (int k = 0; k < DIRECTIONS; ++k) {
+    const double angle = M_PI * k / DIRECTIONS;
+    const Eigen::Vector3d d =
+        std::cos(angle) * s.rotation.col(0) + std::sin(angle) * s.rotation.col(1);
+    const Interval width = extentAlong(points, d);
+    if (width.half() < narrow.half()) {
+      narrow = width;
+      direction = d;
+    }
+  }
+  const Eigen::Vector3d along = s.rotation.col(2).cross(direction);
+  const Interval wide = extentAlong(points, along);
+  Round round;
+  round.radius = narrow.half();
+  const double beside = wide.half() - round.radius;
+  std::vector<double> places = {wide.middle() - beside, wide.middle() + beside};
+  if (beside < NO_HANDLE * round.radius)
+    places = {wide.middle()};
+  for (const double at : places)
+    round.middles.emplace_back(narrow.middle() * direction + at * along);
+  return round;
+}
+
 } // namespace
 
 std::vector<Superquadric> vesselStarts(const ViewProblem& p,
@@ -48,23 +92,21 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
   if (!(s.rotation.col(0).norm() > 0.5)) // seen along the axis
     s.rotation.col(0) = up.unitOrthogonal();
   s.rotation.col(1) = up.cross(s.rotation.col(0));
-  // from the near outside to the far inside, and from side to side
-  const Interval across = extentAlong(p.medium(), s.rotation.col(0)),
-                 deep = extentAlong(p.medium(), s.rotation.col(1));
+  const Round round =
+      p.hasView() ? seenRound(p.medium(), s) : wholeRound(p.medium(), s);
   Interval high = extentAlong(p.medium(), up);
-  const Eigen::Vector3d middle =
-      across.middle() * s.rotation.col(0) + deep.middle() * s.rotation.col(1);
+  const Eigen::Vector3d& place = round.middles.front();
   // down to the table, or to what hides the rest
   double lowest = high.high - 1e-3;
   bool ends = false;
   for (const TangentPlane& plane : p.tangents())
     if (const double down = plane.normal.dot(up); down < -UPRIGHT) {
       ends = true;
-      lowest = std::min(lowest, (plane.offset - plane.normal.dot(middle)) / down);
+      lowest = std::min(lowest, (plane.offset - plane.normal.dot(place)) / down);
     }
   if (ends)
     high.low = lowest;
-  const double radius = std::max(across.half(), 1e-3);
+  const double radius = std::max(round.radius, 1e-3);
   std::vector<Superquadric> starts;
   for (const Kind& kind : KINDS) {
     s.epsilon1 = kind.epsilon1;
@@ -77,8 +119,10 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
     const double a3 = 2.0 * high.half() / (1.0 + kind.rim);
     s.semi_axes = {radius / growth, radius / growth, a3};
     s.wall = std::min(0.07 * radius, 0.3 * a3);
-    s.center = middle + (high.low + a3) * up;
-    starts.push_back(s);
+    for (const Eigen::Vector3d& middle : round.middles) {
+      s.center = middle + (high.low + a3) * up;
+      starts.push_back(s);
+    }
   }
   return starts;
 }

@@ -13,6 +13,8 @@ namespace {
 /** \brief Unit vector of the own frame towards the circle's centre, for a positive
  * curvature. */
 Eigen::Vector3d towards(const Superquadric& s) {
+  if (s.bend_angle == 0.0) // all that fits make
+    return Eigen::Vector3d::UnitX();
   return {std::cos(s.bend_angle), std::sin(s.bend_angle), 0.0};
 }
 

@@ -138,8 +138,13 @@ double residualAt(const Superquadric& s,
     return s.radialDistance(point);
   case kernels::Residual::FIRST_ORDER:
     return s.firstOrderDistance(point);
-  case kernels::Residual::FOOT_POINT:
-    return s.footPointDistance(point);
+  case kernels::Residual::FOOT_POINT: {
+    double distance = 0.0;
+    if (!s.isDeformed() || s.isCut())
+      return s.footPointDistance(point);
+    footOf(s, s.toLocal(point), distance); // without its derivatives
+    return distance;
+  }
   case kernels::Residual::GAUGE:
     return s.gauge(point) - 1.0;
   case kernels::Residual::SOLINA:
@@ -158,6 +163,10 @@ void residualsOf(const Superquadric& s,
   }
   if (s.isCut()) {
     openResiduals(s, points, residual, out);
+    return;
+  }
+  if (!s.isBent() && residual == kernels::Residual::FOOT_POINT) {
+    kernels::kernels().taperedResiduals(points.view(), toShape(s), out);
     return;
   }
   for (std::size_t i = 0; i < points.size(); ++i)

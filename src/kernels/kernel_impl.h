@@ -92,6 +92,7 @@ constexpr Kernels table(const char* name) {
           &residuals,
           &accumulate<false>,
           &straightPlanes,
+          &taperedResiduals,
           &taperedEquations,
           &taperedPlanes,
           &taperedRows};

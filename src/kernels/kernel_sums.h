@@ -238,6 +238,21 @@ void residuals(const Points& points, const Shape& shape, float* out) {
   }
 }
 
+inline void taperedResiduals(const Points& points, const Shape& shape, float* out) {
+  alignas(64) float rows[TAPERED_ROWS][BLOCK]; // those of the taper, not wanted here
+  alignas(64) float block[BLOCK];
+  const Lanes l = spread(shape);
+  const Taper taper = {all(shape.kx), all(shape.ky)};
+  for (std::size_t begin = 0; begin < points.count; begin += BLOCK) {
+    const std::size_t rest = points.count - begin;
+    const std::size_t size = rest < BLOCK ? rest : BLOCK;
+    for (std::size_t p = 0; p < size; p += LANES)
+      store(block + p,
+            taperedRow(l, taper, local(l, points, begin + p), rows, p).residual);
+    __builtin_memcpy(out + begin, block, size * sizeof(float));
+  }
+}
+
 inline void
 residuals(const Points& points, const Shape& shape, Residual kind, float* out) {
   switch (kind) {

@@ -97,6 +97,8 @@ struct Kernels {
   /** \brief Cost and share only. */
   void (*evaluate)(const Points&, const Shape&, Residual, const Mixture&, Sums&);
   void (*planes)(const Planes&, const Shape&, PlaneSums&);
+  /** \brief Distance of each point to the foot point of a tapered body. */
+  void (*taperedResiduals)(const Points&, const Shape&, float* out);
   /** \brief normalEquations() of the distance to the foot point of a tapered body. */
   void (*taperedEquations)(const Points&,
                            const Shape&,

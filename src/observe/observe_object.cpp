@@ -119,6 +119,7 @@ void addHiddenEnds(const ObservedObject& object,
       all.push_back(foot);
     }
   }
+  std::vector<TangentPlane> behind;
   const std::vector<SilhouetteLine> pieces = silhouetteLines(asOwn(outline), lines);
   const std::vector<SilhouetteLine> own = silhouetteLines(object.contour, lines);
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
@@ -131,8 +132,16 @@ void addHiddenEnds(const ObservedObject& object,
     const bool reaches = is_seen && reached != pieces.end() && !knows(known, line);
     if (reaches)
       evidence.tangents.push_back(endOf(*reached));
-    if (!knows(own, line) && !(reaches && reached->offset == line.offset))
-      evidence.limits.push_back(endOf(line));
+    if (knows(own, line) || (reaches && reached->offset == line.offset))
+      continue;
+    const bool hides = object.outline == OutlineSource::MASK && !atBorder(line.contact);
+    (hides ? behind : evidence.limits).push_back(endOf(line));
+  }
+  // how far it goes on behind another is one thing that is not known, not one for each
+  // line
+  for (TangentPlane& end : behind) {
+    end.sigma *= std::sqrt(double(behind.size()));
+    evidence.limits.push_back(end);
   }
 }
 

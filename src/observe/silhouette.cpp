@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/silhouette.h"
 
+#include "util/outer_points.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +38,7 @@ std::vector<ContourPoint> contourOf(const CellMask& mask,
 
 std::vector<ContourPoint> convexHull(const std::vector<ContourPoint>& contour) {
   std::vector<ContourPoint> sorted = contour;
+  detail::keepOuter(sorted, [](const ContourPoint& p) { return p.pixel; });
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     return a.pixel.x() != b.pixel.x() ? a.pixel.x() < b.pixel.x()
                                       : a.pixel.y() < b.pixel.y();

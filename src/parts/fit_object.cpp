@@ -6,7 +6,8 @@
 #include "parts/outline_gaps.h"
 #include "parts/split_view.h"
 #include "parts/union_score.h"
-#include "parts/whole_cloud.h"
+#include "parts/verdict.h"
+#include "parts/whole_search.h"
 #include "tuning/parts_tuning.h"
 #include "util/option_check.h"
 #include "util/point_set.h"
@@ -88,11 +89,20 @@ splitSolids(const PieceContext& context, Piece whole, int wanted, double min_gai
   const bool exactly = context.options.parts > 0;
   ObjectFitOptions options = context.options;
   options.fit.vessel = false;
-  const PieceContext solids{
+  PieceContext solids{
       context.observed, options, context.noise, context.precision, context.limits};
-  if (whole.fit.chosen.shape == ShapeClass::VESSEL)
-    fitPiece(solids, whole, Effort::AGAIN);
-  return splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  // whoever names a largest number asks for the detail that so many tell
+  if (options.max_parts == 0 || exactly) {
+    const double coarse = COARSE_ERROR * context.observed.extent;
+    solids.noise = std::max(context.noise, coarse);
+    min_gain = std::max(min_gain, COARSE_GAIN * context.observed.effective_points);
+  }
+  fitPiece(solids, whole, Effort::AGAIN);
+  std::vector<Piece> pieces =
+      splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);
+  solids.noise = context.noise;
+  refineParts(solids, pieces);
+  return pieces;
 }
 
 /** \brief Last fits of all parts. They share the axis of the largest solid of
@@ -116,6 +126,33 @@ void finish(const PieceContext& context, std::vector<Piece>& pieces) {
   for (std::size_t k = 0; k < pieces.size(); ++k)
     if (k != largest)
       again(k, largest < pieces.size() ? axisOf(pieces[largest]) : nullptr);
+}
+
+MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
+  MultiSuperquadric model;
+  for (const Piece& piece : pieces)
+    model.parts.push_back(piece.fit.fit.model);
+  return model;
+}
+
+/** \brief Goes back to one superquadric where parts make a model that is not to be
+ * handed out, and that is: of a thing that is half hidden, parts may each follow a
+ * scrap of what is seen. */
+void takeWholeIfBetter(const PieceContext& context,
+                       Piece whole,
+                       std::vector<Piece>& pieces) {
+  const auto isRefused = [&](const std::vector<Piece>& of) {
+    double noise = 0.0;
+    for (const Piece& piece : of)
+      noise = std::max(noise, piece.fit.fit.sigma);
+    return !judge(modelOf(of), context.observed, noise).objection().empty();
+  };
+  if (pieces.size() < 2 || !isRefused(pieces))
+    return;
+  std::vector<Piece> one(1, std::move(whole));
+  finish(context, one);
+  if (!isRefused(one))
+    pieces = std::move(one);
 }
 
 /** \brief Of each point: the noise's variance over that of its own, with what slant
@@ -167,13 +204,16 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                 : noiseOf(sheetsOf(observed.points,
                                    std::max<Eigen::Index>(
                                        1, observed.points.cols() / NOISE_SAMPLES)));
-  PieceContext context{observed, options, 0.0, precisionOf(observed, noise), {}};
+  PieceContext context{
+      observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
   const int wanted = options.parts > 0       ? options.parts
                      : options.max_parts > 0 ? options.max_parts
                      : observed.hasCamera()  ? MOST_IN_VIEW
                                              : MOST_ALL_ROUND;
-  const bool split = wanted > 1 && (noise > 0.0 || options.parts > 0);
+  // a whole cloud sampled from flat faces has none
+  const bool split =
+      wanted > 1 && (noise > 0.0 || options.parts > 0 || !observed.hasCamera());
   std::vector<Piece> pieces(1, wholePiece(context));
   // where parts are compared, the first fit but tells the noise; bare points of one
   // view leave the depth so open that the families must all start from there
@@ -190,22 +230,31 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
                             ? 0.0
                             : SENSOR_ERROR * observed.depth)
             .norm();
-    fitPiece(context, pieces[0], Effort::AGAIN);
+    if (observed.hasCamera())
+      fitPiece(context, pieces[0], Effort::AGAIN);
+    else { // beyond the points of all sides there is nothing
+      Part whole;
+      whole.piece = std::move(pieces[0]);
+      fitPart(context, whole, Effort::AGAIN);
+      pieces[0] = std::move(whole.piece);
+    }
     fit.misfit = pieces[0].misfit / observations(context, pieces[0]);
     if (observed.hasCamera()) {
+      const Piece whole = pieces[0];
       context.limits.push_back(backOf(pieces[0].fit, observed));
       splitView(context, pieces, wanted, min_gain);
       if (wanted >= 4 && options.parts == 0)
         openGap(context, pieces, min_gain);
+      finish(context, pieces);
+      if (options.parts == 0)
+        takeWholeIfBetter(context, whole, pieces);
     } else if (!fitWholeVessel(context, pieces))
       pieces = splitSolids(context, std::move(pieces[0]), wanted, min_gain);
-    if (observed.hasCamera())
-      finish(context, pieces);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
+  fit.model = modelOf(pieces);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     fit.bic += pieces[k].score;
-    fit.model.parts.push_back(pieces[k].fit.fit.model);
     addDistances(gather(context, pieces[k].points), pieces[k].fit.fit);
     fit.parts.push_back(std::move(pieces[k].fit));
     for (const int i : pieces[k].points)

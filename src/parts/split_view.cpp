@@ -19,6 +19,7 @@ constexpr std::array<double, 4> SHIFTS = {-0.1, -0.05, 0.05, 0.1};
 struct Split {
   Cut cut;
   bool shifted = false; ///< believed of solids of revolution only: others bend to it
+  bool final = false;   ///< a body and its handle; other parts may be bent as well
   Piece first, second;
   double score = 1e300;
 };
@@ -50,9 +51,9 @@ bool betterSplit(const Split& a, const Split& b) {
 }
 
 void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) {
-  fitPiece(context, s.first, Effort::AGAIN, axis);
-  fitPiece(context, s.second, Effort::AGAIN, axis ? axis : axisOf(s.first));
-  s.score = unbent(s.first) + unbent(s.second);
+  fitPiece(context, s.first, Effort::STRAIGHT, axis);
+  fitPiece(context, s.second, Effort::STRAIGHT, axis ? axis : axisOf(s.first));
+  s.score = s.first.score + s.second.score;
 }
 
 /** \brief Adds the best cut moved to where its two parts fit better: a bottle's
@@ -85,6 +86,23 @@ void keepPromising(std::vector<Split>& splits, double limit) {
                      QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
   while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
     splits.pop_back();
+}
+
+/** \brief Fits the two parts of a cut with more families than before, and takes what
+ * explains them better. */
+void fitBetter(const PieceContext& context,
+               Split& s,
+               Effort effort,
+               const Superquadric* axis) {
+  const auto again = [&](Piece& piece, const Superquadric* shared) {
+    Piece next = piece;
+    fitPiece(context, next, effort, shared);
+    if (next.score < piece.score)
+      piece = std::move(next);
+  };
+  again(s.first, axis);
+  again(s.second, axis ? axis : axisOf(s.first));
+  s.score = unbent(s.first) + unbent(s.second);
 }
 
 /** \brief Whether a piece's model is a body: splinters thinner than the noise and
@@ -120,11 +138,14 @@ Split bestSplit(const PieceContext& context,
     // a bottle's neck is no handle: without it the body is no vessel
     if (best.first.fit.chosen.shape == ShapeClass::VESSEL)
       best.score = best.first.score + best.second.score;
+    best.final = true;
   }
   for (Split& s : splits)
     if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
         (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
       best = std::move(s);
+  if (!best.final && best.score < 1e299)
+    fitBetter(context, best, Effort::UNBENT, axis);
   return best;
 }
 
@@ -226,6 +247,9 @@ void splitView(const PieceContext& context,
     std::size_t which = 0;
     double gain = exactly ? -1e300 : min_gain;
     const std::size_t main = largestOfRevolution(pieces);
+    const auto axisFor = [&](std::size_t i) {
+      return main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr;
+    };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       Piece& piece = pieces[i];
       Piece body, handle;
@@ -235,10 +259,7 @@ void splitView(const PieceContext& context,
       if (piece.final || (good && !exactly))
         continue;
       Split s =
-          bestSplit(context,
-                    piece,
-                    main < pieces.size() && main != i ? axisOf(pieces[main]) : nullptr,
-                    exactly ? 1e299 : piece.straight_score);
+          bestSplit(context, piece, axisFor(i), exactly ? 1e299 : piece.straight_score);
       const double whole =
           exactly || piece.misfit < explained ? piece.score : unbent(piece);
       if (whole - s.score > gain) {
@@ -250,6 +271,8 @@ void splitView(const PieceContext& context,
     }
     if (best.score > 1e299)
       break;
+    if (!best.final)
+      fitBetter(context, best, Effort::AGAIN, axisFor(which));
     partings.push_back({pieces[which], which, pieces.size()});
     pieces[which] = best.first;
     pieces.push_back(best.second);

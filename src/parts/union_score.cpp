@@ -41,8 +41,10 @@ struct BodyTrace {
     return beyond;
   }
 
+  std::size_t number() const { return number_; }
+
 private:
-  static inline std::atomic<std::size_t> made_{0};
+  static inline std::atomic<std::size_t> made_{1};
   const std::size_t number_ = made_++; ///< tells bodies apart, also those that are gone
   mutable std::mutex mutex_;
   mutable std::map<std::size_t, Eigen::VectorXd> met_;
@@ -122,6 +124,23 @@ double distanceOf(const Part& part, int column) {
   return part.trace->distances[column];
 }
 
+std::size_t traceNumber(const Part& part) {
+  return part.trace ? part.trace->number() : 0;
+}
+
+std::vector<std::size_t> nearestParts(const std::vector<Part>& parts,
+                                      const std::vector<int>& points) {
+  std::vector<std::size_t> nearest;
+  for (const int i : points) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < parts.size(); ++k)
+      if (std::abs(distanceOf(parts[k], i)) < std::abs(distanceOf(parts[best], i)))
+        best = k;
+    nearest.push_back(best);
+  }
+  return nearest;
+}
+
 void fitPart(const PieceContext& context, Part& part, Effort effort) {
   fitPiece(context, part.piece, effort);
   traceAgain(context, part);
@@ -129,8 +148,11 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
     PieceContext within = context;
     const std::vector<TangentPlane> sides = sidesOfBox(context.observed);
     within.limits.insert(within.limits.end(), sides.begin(), sides.end());
-    fitPiece(within, part.piece, effort);
-    traceAgain(context, part);
+    Part held = part;
+    fitPiece(within, held.piece, effort);
+    traceAgain(context, held);
+    if (held.trace && held.trace->sticks_out < part.trace->sticks_out)
+      part = std::move(held);
   }
 }
 

@@ -26,6 +26,13 @@ void traceAgain(const PieceContext& context, Part& part);
 /** \brief Signed distance of an observed point to a part's body [m]. */
 [[nodiscard]] double distanceOf(const Part& part, int column);
 
+/** \brief Tells bodies apart, also those that are gone. */
+[[nodiscard]] std::size_t traceNumber(const Part& part);
+
+/** \brief Of each of some points the part with the nearest surface. */
+[[nodiscard]] std::vector<std::size_t> nearestParts(const std::vector<Part>& parts,
+                                                    const std::vector<int>& points);
+
 /** \brief M19: minus twice the logarithm of the likelihood, plus the parameters' price;
  * smaller is better.
  *

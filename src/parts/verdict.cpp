@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/verdict.h"
 
-#include "pcl_sq/line_intersection.h"
+#include "pieces/body_outline.h"
 #include "tuning/parts_tuning.h"
 #include "union/surface_statistics.h"
 
@@ -13,17 +13,6 @@ namespace pcl_sq::detail {
 namespace {
 
 using namespace tuning::verdict;
-
-bool covers(const MultiSuperquadric& model,
-            const Eigen::Vector3d& eye,
-            const Eigen::Vector3d& ray) {
-  return std::any_of(
-      model.parts.begin(), model.parts.end(), [&](const Superquadric& part) {
-        LineInterval inside;
-        return intersectLineBox(part, eye, ray, inside) &&
-               intersectLine(part, eye, ray, inside) && inside.leave > 0.0;
-      });
-}
 
 /** \brief Share of the points that the model explains, and how far off they are. */
 void judgePoints(const MultiSuperquadric& model,
@@ -49,6 +38,14 @@ void judgePoints(const MultiSuperquadric& model,
   std::nth_element(distances.begin(), middle, distances.end());
   const Eigen::Matrix3Xd spread = o.points.colwise() - o.points.rowwise().mean();
   verdict.off = *middle / (2.0 * std::sqrt(spread.squaredNorm() / double(n)));
+}
+
+std::vector<RayTest> rayTests(const MultiSuperquadric& model,
+                              const Eigen::Vector3d& eye) {
+  std::vector<RayTest> tests;
+  for (const Superquadric& part : model.parts)
+    tests.emplace_back(part, eye);
+  return tests;
 }
 
 /** \brief Pixels between two of a coarse grid. */
@@ -96,8 +93,11 @@ judge(const MultiSuperquadric& model, const ObservedObject& observed, double noi
   const CellMask& mask = observed.pixels;
   const CellRect box = boundingRect(mask);
   const PinholeCamera& camera = observed.camera;
+  const std::vector<RayTest> bodies = rayTests(model, camera.center);
   const auto seen = [&](const Eigen::Vector2d& pixel) {
-    return covers(model, camera.center, camera.ray(pixel));
+    const Eigen::Vector3d ray = camera.ray(pixel);
+    return std::any_of(
+        bodies.begin(), bodies.end(), [&](const RayTest& b) { return b.hits(ray); });
   };
   const int step =
       std::max(1, static_cast<int>(std::sqrt(double(mask.count()) / SAMPLE)));

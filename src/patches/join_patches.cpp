@@ -80,8 +80,23 @@ private:
     }
   }
 
-  /** \brief Pairs that one body may explain: they touch, or are of one colour and one
-   * place. */
+  /** \brief Whether two patches touch, or are of one colour and one place. */
+  bool areNear(int a, int b) const {
+    const auto border = borders_.find({a, b});
+    const bool contact = border != borders_.end() && touches(border->second);
+    return contact || offset(a, b) < OVERLAP || (sameColor(a, b) && offset(a, b) < 1.0);
+  }
+
+  /** \brief Whether nothing is seen that would part two patches of one colour which one
+   * body explains: the background beside neither, but that a vessel's rim is before. */
+  bool isUnparted(std::pair<int, int> pair, const BodyScore& both) const {
+    return areNear(pair.first, pair.second) || both.is_vessel ||
+           !between(
+                view_, list_[std::size_t(pair.first)], list_[std::size_t(pair.second)])
+                .background;
+  }
+
+  /** \brief Pairs that one body may explain: near each other, or of one colour. */
   std::vector<std::pair<int, int>> candidates() const {
     std::vector<std::pair<int, int>> pairs;
     for (int a = 0; a < int(list_.size()); ++a)
@@ -89,10 +104,7 @@ private:
         if (std::min(list_[std::size_t(a)].pixels.size(),
                      list_[std::size_t(b)].pixels.size()) < SCRAP)
           continue;
-        const auto border = borders_.find({a, b});
-        const bool contact = border != borders_.end() && touches(border->second);
-        if (contact || offset(a, b) < OVERLAP ||
-            (sameColor(a, b) && offset(a, b) < 1.0))
+        if (areNear(a, b) || (view_.colors.cols() > 0 && sameColor(a, b, ONE_COLOR)))
           pairs.emplace_back(a, b);
       }
     return pairs;
@@ -176,7 +188,7 @@ private:
                                               scores_.at({pair.second, pair.second}),
                                               scores_.at(pair)) +
                                 flush(pair);
-            gain > best) {
+            gain > best && isUnparted(pair, scores_.at(pair))) {
           best = gain;
           which = pair;
         }

@@ -61,6 +61,7 @@ BodyScore scoreOfBody(const SceneView& view, const std::vector<int>& pixels) {
   score.fits = fit.fit.ok();
   score.squares = fit.chosen.cost * score.noise * score.noise;
   score.parameters = fit.chosen.parameters;
+  score.is_vessel = fit.chosen.shape == ShapeClass::VESSEL;
   return score;
 }
 

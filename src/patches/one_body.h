@@ -15,6 +15,7 @@ struct BodyScore {
   double noise = 0.0;   ///< standard deviation of a point [m]
   int parameters = 0;   ///< of the family
   bool fits = false;    ///< false: the points are too few
+  bool is_vessel = false;
 };
 
 /** \brief Fits the best family to a set of pixels, by points alone. */

@@ -16,28 +16,7 @@ public:
   /** \brief That of no body: no ray misses it for sure. */
   BodyOutline() = default;
   /** \param[in] eye the camera; within the body's reach there is no outline */
-  BodyOutline(const Superquadric& body, const Eigen::Vector3d& eye, int planes) {
-    constexpr int ROUNDS = 4;
-    const Eigen::Vector3d towards = body.center - eye;
-    const double distance = towards.norm();
-    const double nearest = distance - body.halfSizes().norm();
-    if (!(nearest > 0.0))
-      return;
-    const Eigen::Vector3d ahead = towards / distance, right = ahead.unitOrthogonal(),
-                          down = ahead.cross(right);
-    for (int k = 0; k < planes; ++k) {
-      const double angle = 2.0 * M_PI * k / planes;
-      const Eigen::Vector3d side = std::cos(angle) * right + std::sin(angle) * down;
-      Eigen::Vector3d normal = side;
-      double sine = 0.0;
-      for (int round = 0; round < ROUNDS; ++round) {
-        sine = std::min(body.support(normal) / distance, 0.9);
-        normal = std::sqrt(1.0 - sine * sine) * side - sine * ahead;
-      }
-      const double beyond = body.support(normal) - sine * distance;
-      planes_.push_back({normal, std::max(beyond, 0.0) / nearest});
-    }
-  }
+  BodyOutline(const Superquadric& body, const Eigen::Vector3d& eye, int planes);
 
   /** \brief Whether a ray, of unit length, is beyond one of the planes. */
   bool misses(const Eigen::Vector3d& ray) const {
@@ -61,6 +40,20 @@ private:
     double least; ///< sine of a ray's angle with the plane from which on it misses
   };
   std::vector<Plane> planes_;
+};
+
+/** \brief Whether rays from one place hit a body, filled up to its rim. Most rays are
+ * clear of its outline, or go deep through it; only the others cost a search. */
+class RayTest {
+public:
+  RayTest(const Superquadric& body, const Eigen::Vector3d& eye);
+  /** \param[in] ray of unit length */
+  bool hits(const Eigen::Vector3d& ray) const;
+
+private:
+  const Superquadric& body_;
+  Eigen::Vector3d eye_;
+  BodyOutline outline_;
 };
 
 } // namespace pcl_sq::detail

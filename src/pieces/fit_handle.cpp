@@ -34,10 +34,11 @@ void choose(Piece& handle, const ShapeCandidate& c) {
 }
 
 /** \brief The area that a handle covers, seen from the camera [m^2]; 0 without one. */
-double profileOf(const ObservedObject& o, const Piece& handle) {
+double profileOf(const PieceContext& context, const Piece& handle) {
+  const ObservedObject& o = context.observed;
   if (!o.hasCamera() || handle.pixels.empty())
     return 0.0;
-  const double pixel = pixelStep(o) * o.depth;
+  const double pixel = context.pixel_step * o.depth;
   return double(handle.pixels.size()) * pixel * pixel / (o.camera.fx * o.camera.fy);
 }
 
@@ -65,8 +66,11 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
   nothing_near.cost = 1e299;
   nothing_near.model = problem.frame().toUnit(around);
   const double unit = problem.frame().scale;
-  std::optional<ShapeCandidate> rod = fitBent(
-      problem, problem.noise(), {nothing_near}, profileOf(o, handle) / (unit * unit));
+  std::optional<ShapeCandidate> rod =
+      fitBent(problem,
+              problem.noise(),
+              {nothing_near},
+              profileOf(context, handle) / (unit * unit));
   if (rod)
     rod->model = problem.frame().toCloud(rod->model);
   return rod;

@@ -89,15 +89,21 @@ void fitPiece(const PieceContext& context,
   options.choose_shape = options.choose_shape && !general;
   options.vessel = options.vessel && piece.stands; // a handle is none
   options.taper = options.taper && piece.stands;   // nor is it a cone
+  if (effort == Effort::STRAIGHT)
+    options.vessel = options.taper = false;
   // from a wrong place the far side of a solid is its inside
   if (o.hasCamera() && !o.viewpoint_known && !piece.ends.empty())
     options.vessel = false;
+  if (effort == Effort::UNBENT || effort == Effort::STRAIGHT ||
+      (effort == Effort::FINAL && piece.fit.chosen.shape != ShapeClass::BENT))
+    options.bend = false;
   options.all_points = !o.hasCamera() && !general;
   if (coaxial)
     options.coaxial = *coaxial;
   if (effort == Effort::QUICK)
     options.starts = QUICK_STARTS;
-  if ((effort == Effort::AGAIN || effort == Effort::FINAL) && piece.fit.fit.ok())
+  const bool goes_on = effort != Effort::FULL && !general;
+  if (goes_on && piece.fit.fit.ok())
     options.start = piece.fit.straight().model;
   ViewEvidence evidence =
       o.evidence(outlineBesideJoints(o, piece, halfDiagonal(points)),
@@ -108,9 +114,8 @@ void fitPiece(const PieceContext& context,
   evidence.limits.insert(
       evidence.limits.end(), context.limits.begin(), context.limits.end());
   const double price = std::log(1.0 + o.effective_points); // of a parameter
-  const auto against = [&](const Superquadric& body) {
-    return coveredFreeSpace(context, body).cost + missedPixels(context, piece, body);
-  };
+  const FreeSpaceCost free_space(context, piece);
+  const auto against = [&](const Superquadric& body) { return free_space(body); };
   const auto assess = [&](ViewFit fit, double hinges) {
     Piece assessed;
     assessed.fit = std::move(fit);

@@ -2,7 +2,6 @@
 #include "pieces/free_space.h"
 
 #include "pcl_sq/line_intersection.h"
-#include "pieces/body_outline.h"
 #include "pieces/piece_outline.h"
 #include "sensor/depth_patch.h"
 #include "tuning/parts_tuning.h"
@@ -37,18 +36,20 @@ bool insideOnRay(const Superquadric& body,
   return true;
 }
 
+double sigmaOf(const ObservedObject& o) {
+  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
+  return std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+}
+
 } // namespace
 
 /** \brief M11. */
-Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) {
+Covered coveredFreeSpace(const PieceContext& context,
+                         const Superquadric& body,
+                         const BodyOutline& outline) {
   const ObservedObject& o = context.observed;
-  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
-  const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+  const double sigma = sigmaOf(o);
   Covered covered;
-  // beyond the outline of a body that is not plain no costly search along the ray
-  const BodyOutline outline = body.isPlain()
-                                  ? BodyOutline()
-                                  : BodyOutline(body, o.camera.center, OUTLINE_PLANES);
   for (const Eigen::Vector2d& p : o.free_space) {
     const Eigen::Vector3d ray = o.camera.ray(p);
     if (outline.misses(ray))
@@ -76,27 +77,49 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
   return covered;
 }
 
-double missedPixels(const PieceContext& context,
-                    const Piece& piece,
-                    const Superquadric& body) {
+Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) {
+  // beyond the outline of a body that is not plain no costly search along the ray
+  return coveredFreeSpace(
+      context,
+      body,
+      body.isPlain()
+          ? BodyOutline()
+          : BodyOutline(body, context.observed.camera.center, OUTLINE_PLANES));
+}
+
+FreeSpaceCost::FreeSpaceCost(const PieceContext& context, const Piece& piece)
+    : context_(context) {
   const ObservedObject& o = context.observed;
-  if (o.outline != OutlineSource::MASK)
-    return 0.0;
-  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
-  const double sigma = std::max(o.outline_sigma * pixel, FREE_SIGMA * o.extent);
+  if (o.outline != OutlineSource::MASK && o.outline != OutlineSource::DEPTH)
+    return;
   const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / INSIDE);
-  const double weight =
-      std::min(1.0, double(stride) * std::pow(pixelStep(o) / OUTLINE_CORRELATION, 2));
-  const BodyOutline outline(body, o.camera.center, OUTLINE_PLANES);
+  weight_ = std::min(
+      1.0, double(stride) * std::pow(context.pixel_step / OUTLINE_CORRELATION, 2));
   const BesideJoints beside(o, piece, halfSize(context, piece));
-  double cost = 0.0;
   for (std::size_t i = 0; i < piece.pixels.size(); i += stride) {
     const Eigen::Vector2d& p = piece.pixels[i];
-    const double z = outline.sineBeyond(o.camera.ray(p)) * o.depth / sigma;
-    if (z > 0.0 && isWellInside(o.pixels, p) && beside(p) > 0.0)
-      cost += weight * std::min(z * z, MAX_COST);
+    if (isWellInside(o.pixels, p) && beside(p) > 0.0)
+      rays_.push_back(o.camera.ray(p));
+  }
+}
+
+double FreeSpaceCost::missed(const BodyOutline& outline) const {
+  const ObservedObject& o = context_.observed;
+  const double sigma = sigmaOf(o);
+  double cost = 0.0;
+  for (const Eigen::Vector3d& ray : rays_) {
+    const double z = outline.sineBeyond(ray) * o.depth / sigma;
+    if (z > 0.0)
+      cost += weight_ * std::min(z * z, MAX_COST);
   }
   return cost;
+}
+
+double FreeSpaceCost::operator()(const Superquadric& body) const {
+  if (rays_.empty())
+    return coveredFreeSpace(context_, body).cost;
+  const BodyOutline outline(body, context_.observed.camera.center, OUTLINE_PLANES);
+  return coveredFreeSpace(context_, body, outline).cost + missed(outline);
 }
 
 double hingeCost(const std::vector<TangentPlane>& limits, const Superquadric& body) {

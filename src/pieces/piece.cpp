@@ -38,7 +38,7 @@ Piece wholePiece(const PieceContext& context) {
   piece.contour = context.observed.contour;
   const CellMask& mask = context.observed.pixels;
   const CellRect box = boundingRect(mask);
-  const int step = pixelStep(context.observed);
+  const int step = context.pixel_step;
   const auto onGrid = [step](int from) { return (from + step - 1) / step * step; };
   for (int y = onGrid(box.y); y < box.y + box.height; y += step)
     for (int x = onGrid(box.x); x < box.x + box.width; x += step)

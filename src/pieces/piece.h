@@ -38,6 +38,7 @@ struct PieceContext {
   double noise;                     ///< of the points [m]
   std::vector<float> precision;     ///< of the observed points; may be empty
   std::vector<TangentPlane> limits; ///< half-spaces that hold every part, roughly
+  int pixel_step = 1;               ///< between two of Piece::pixels
 };
 
 /** \brief Observed points. */
@@ -46,7 +47,8 @@ Eigen::Matrix3Xd gather(const PieceContext& context, const std::vector<int>& col
 /** \brief Half the diagonal of the box of points [m]. */
 double halfDiagonal(const Eigen::Matrix3Xd& points);
 
-/** \brief Pixels between two of Piece::pixels. */
+/** \brief Pixels between two of Piece::pixels, so that those of all are not too many.
+ */
 int pixelStep(const ObservedObject& observed);
 
 /** \brief The whole object as one piece. */
@@ -85,11 +87,13 @@ double scatter(const PieceContext& context, const Piece& piece);
 void fitHandle(const PieceContext& context, Piece& handle, const Superquadric& body);
 
 enum class Effort {
-  QUICK, ///< general shape, few starts
-  START, ///< general shape, all starts: where AGAIN goes on from
-  FULL,  ///< all shapes, all starts
-  AGAIN, ///< all shapes from the last fit
-  FINAL  ///< the same, and held off the free pixels
+  QUICK,    ///< general shape, few starts
+  START,    ///< general shape, all starts: where AGAIN goes on from
+  FULL,     ///< all shapes, all starts
+  AGAIN,    ///< all shapes from the last fit
+  STRAIGHT, ///< the same without tapers, walls and bends: cuts are ranked by these
+  UNBENT,   ///< the same without bends, which a cut is to pay without
+  FINAL     ///< the same, and held off the free pixels
 };
 
 /** \brief Fits a piece and scores it.

@@ -3,6 +3,7 @@
 
 #include "table/depth_regions.h"
 #include "table/table_search.h"
+#include "util/outer_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 /** \brief Convex hull, counter-clockwise (Andrew's monotone chain). */
 std::vector<Eigen::Vector2d> hullOf(std::vector<Eigen::Vector2d> points) {
+  keepOuter(points, [](const Eigen::Vector2d& p) { return p; });
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });

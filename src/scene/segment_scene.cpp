@@ -49,9 +49,10 @@ SceneSegments segmentScene(const SceneView& view, int min_pixels) {
   const TableColor table(view, above);
   table.removeHalo(pixels);
   Patches patches = patchesOf(view, divide(view, pixels));
-  for (Patch& patch : patches.list)
-    if (table.isRim(patch))
-      patch.pixels.clear();
+  const std::vector<bool> rims = table.rimsOf(patches);
+  for (std::size_t k = 0; k < rims.size(); ++k)
+    if (rims[k])
+      patches.list[k].pixels.clear();
   LabelImage labels(view.width, view.height);
   std::uint16_t next = 1;
   for (const Patch& thing : joinPatches(view, std::move(patches))) {

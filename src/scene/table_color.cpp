@@ -101,12 +101,25 @@ std::vector<bool> TableColor::outlined(const LabelImage& labels) const {
   return result;
 }
 
-bool TableColor::isRim(const Patch& patch) const {
-  if (cells_.empty() || !isThin(patch.pixels, view_.width, view_.height))
-    return false;
-  const int middle = patch.pixels[patch.pixels.size() / 2];
-  return hueDistance(shadeOf(patch.sums.color / patch.sums.count),
-                     near(middle % view_.width, middle / view_.width)) < SAME_COLOR;
+std::vector<bool> TableColor::rimsOf(const Patches& patches) const {
+  std::vector<bool> rims(patches.list.size(), false);
+  if (cells_.empty())
+    return rims;
+  const auto likeTable = [this](const Patch& patch) {
+    const int middle = patch.pixels[patch.pixels.size() / 2];
+    return hueDistance(shadeOf(patch.sums.color / patch.sums.count),
+                       near(middle % view_.width, middle / view_.width)) < SAME_COLOR;
+  };
+  for (const auto& [pair, border] : patches.borders) {
+    const Patch& a = patches.list[std::size_t(pair.first)];
+    const Patch& b = patches.list[std::size_t(pair.second)];
+    if (a.pixels.empty() || b.pixels.empty() || likeTable(a) == likeTable(b))
+      continue;
+    const int alike = likeTable(a) ? pair.first : pair.second;
+    rims[std::size_t(alike)] =
+        isThin(patches.list[std::size_t(alike)].pixels, view_.width, view_.height);
+  }
+  return rims;
 }
 
 void TableColor::removeHalo(CellMask& pixels) const {

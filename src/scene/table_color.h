@@ -13,9 +13,10 @@ public:
   /** \param[in] above pixels that are not the table's */
   TableColor(const SceneView& view, const CellMask& above);
 
-  /** \brief Whether patches that are but rims have the table's colour: depth that
-   * matching windows have given to the table beside a thing. */
-  [[nodiscard]] bool isRim(const Patch& patch) const;
+  /** \brief Patches that are but rims of the table's colour beside others that have
+   * another one: depth that matching windows have given to the table beside a thing. A
+   * thing of the table's own colour has no such rim. */
+  [[nodiscard]] std::vector<bool> rimsOf(const Patches& patches) const;
 
   /** \brief Takes away what borders on other pixels and has the table's colour: depth
    * that the sensor has given to the table beside a thing. What has the table's colour

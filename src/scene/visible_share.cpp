@@ -2,6 +2,7 @@
 #include "scene/visible_share.h"
 
 #include "pcl_sq/line_intersection.h"
+#include "pieces/body_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,7 @@ constexpr double NEARER = 0.01;   ///< of the depth: what is in front, beyond it
 /** \brief Depth at which a ray first meets a model; infinite where it misses. */
 double depthOf(const MultiSuperquadric& model,
                const PinholeCamera& camera,
-               const Eigen::Vector2d& pixel) {
-  const Eigen::Vector3d ray = camera.ray(pixel);
+               const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Superquadric& part : model.parts) {
     LineInterval inside;
@@ -60,17 +60,22 @@ double visibleShare(const SceneObject& object,
                     const LabelImage& labels) {
   const CellRect box = boxInImage(object.model, camera, labels.width, labels.height);
   const int step = std::max(1, int(std::sqrt(double(box.area()) / SAMPLE)));
+  std::vector<RayTest> bodies;
+  for (const Superquadric& part : object.model.parts)
+    bodies.emplace_back(part, camera.center);
   int covered = 0, hidden = 0;
   for (int y = box.y; y < box.y + box.height; y += step)
     for (int x = box.x; x < box.x + box.width; x += step) {
-      const double depth = depthOf(object.model, camera, {double(x), double(y)});
-      if (!std::isfinite(depth))
+      const Eigen::Vector3d ray = camera.ray({double(x), double(y)});
+      if (std::none_of(bodies.begin(), bodies.end(), [&](const RayTest& b) {
+            return b.hits(ray);
+          }))
         continue;
       ++covered;
       const int c = y * labels.width + x;
       const Eigen::Vector3d p = points.col(c).cast<double>();
       hidden += labels.values[std::size_t(c)] != object.label && p.allFinite() &&
-                camera.depthOf(p) < (1.0 - NEARER) * depth;
+                camera.depthOf(p) < (1.0 - NEARER) * depthOf(object.model, camera, ray);
     }
   return covered > 0 ? 1.0 - double(hidden) / double(covered) : 1.0;
 }

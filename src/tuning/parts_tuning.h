@@ -141,6 +141,12 @@ inline constexpr double BACK_SIGMA = 0.05;
 /// [size] distance of things' surfaces to the best superquadric; things are no
 /// superquadrics
 inline constexpr double MODEL_ERROR = 0.005;
+/// [size] detail of a whole cloud that is worth no part unless it is asked for: twice
+/// MODEL_ERROR, or the parts of real things follow their dents, each cloud's others
+inline constexpr double COARSE_ERROR = 0.01;
+/// [1] of the score over the observations that another part is worth there: it takes
+/// the tenth of all points from sigma to the surface, or a hundredth from afar; odds
+inline constexpr double COARSE_GAIN = 0.1;
 /// [depth] what neighbours share and their scatter does not show: locking to whole
 /// pixels, smoothing over the window; stereo and depth cameras
 inline constexpr double SENSOR_ERROR = 7e-4;
@@ -213,20 +219,25 @@ inline constexpr double LEAST_PIXELS = 0.8;
 inline constexpr double EVEN = 0.5;
 } // namespace verdict
 
-namespace whole_cloud {
+namespace whole_search {
 /// [cuts] of a part that are remembered; budget
 inline constexpr std::size_t KEPT = 3;
-/// [cuts] best of all parts, that are fitted in full; budget
+/// [cuts, joins] best of all parts, that are fitted in full; budget
 inline constexpr std::size_t TRIED = 3;
 /// [rounds] of assigning points and fitting again; budget
 inline constexpr int ROUNDS = 3;
-/// [cuts] taken although they do not pay: one cut of a handle with two corners helps
-/// little; budget
-inline constexpr int PATIENCE = 2;
+/// [sweeps] over all numbers of parts, to more and back to fewer; budget
+inline constexpr int SWEEPS = 2;
+/// [parts] beyond the best number, that are tried: one cut of a handle with two corners
+/// helps little; budget
+inline constexpr std::size_t PATIENCE = 3;
+/// [price] of a part, by which fewer parts may be worse and yet lead to better ones;
+/// budget
+inline constexpr double FAR = 3.0;
 /// [1] that another part brings along; an ellipsoid of revolution's
 inline constexpr double FEWEST_PARAMETERS = 6.0;
 /// [sigma] that a point lies off a body it is not of; Gauss: 6e-5
 inline constexpr double OFF = 4.0;
-} // namespace whole_cloud
+} // namespace whole_search
 
 } // namespace pcl_sq::detail::tuning

@@ -39,6 +39,22 @@ TEST(SceneEstimation, FindsEveryThingOnTheTable) {
   }
 }
 
+TEST(SceneEstimation, AThingOfTheTablesColorKeepsAllItsPixels) {
+  TableScene truth = fineScene();
+  truth.can();
+  for (const double noise : {0.0, 0.001}) {
+    truth.noise = noise;
+    const Scene scene = estimate(cloudOf(truth, truth.inCamera(), false));
+    const LabelImage labels = truthOf(truth);
+    int both = 0, any = 0;
+    for (std::size_t i = 0; i < labels.values.size(); ++i) {
+      both += labels.values[i] > 0 && scene.labels.values[i] > 0;
+      any += labels.values[i] > 0 || scene.labels.values[i] > 0;
+    }
+    EXPECT_GT(both, 0.95 * any) << noise;
+  }
+}
+
 TEST(SceneEstimation, GivesTheSameInTheRobotsFrame) {
   const TableScene truth = threeThings();
   const Scene scene = estimate(cloudOf(truth, truth.inRoom(), true));

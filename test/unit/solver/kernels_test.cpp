@@ -248,6 +248,19 @@ void expectProducts(const Sums& sums, const Squares& expected, double tolerance)
 
 } // namespace
 
+TEST_P(EveryIsa, DistancesToATaperedBodyAreThoseOfTheSuperquadric) {
+  Random random(31);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Scene scene = taperedScene(random, 301);
+    std::vector<float> r(scene.points.size() + 1, -7.0F);
+    kernels_->taperedResiduals(
+        scene.packed.view(), detail::toShape(scene.shape), r.data());
+    for (std::size_t i = 0; i < scene.points.size(); ++i)
+      EXPECT_NEAR(r[i], scene.shape.footPointDistance(scene.points[i]), 1e-4);
+    EXPECT_EQ(r.back(), -7.0F); // there is no room behind the last point
+  }
+}
+
 TEST_P(EveryIsa, DistancesOfTaperedBodiesAreThoseInDoublePrecision) {
   Random random(11);
   for (int body = 0; body < 20; ++body) {
