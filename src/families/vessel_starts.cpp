@@ -95,14 +95,14 @@ std::vector<Superquadric> vesselStarts(const ViewProblem& p,
   const Round round =
       p.hasView() ? seenRound(p.medium(), s) : wholeRound(p.medium(), s);
   Interval high = extentAlong(p.medium(), up);
+  const Eigen::Vector3d& place = round.middles.front();
   // down to the table, or to what hides the rest
   double lowest = high.high - 1e-3;
   bool ends = false;
   for (const TangentPlane& plane : p.tangents())
     if (const double down = plane.normal.dot(up); down < -UPRIGHT) {
       ends = true;
-      lowest =
-          std::min(lowest, (plane.offset - plane.normal.dot(round.middles[0])) / down);
+      lowest = std::min(lowest, (plane.offset - plane.normal.dot(place)) / down);
     }
   if (ends)
     high.low = lowest;

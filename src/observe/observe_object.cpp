@@ -119,8 +119,7 @@ void addHiddenEnds(const ObservedObject& object,
       all.push_back(foot);
     }
   }
-  std::vector<TangentPlane>& limits = evidence.limits;
-  const std::size_t first = limits.size();
+  std::vector<TangentPlane> behind;
   const std::vector<SilhouetteLine> pieces = silhouetteLines(asOwn(outline), lines);
   const std::vector<SilhouetteLine> own = silhouetteLines(object.contour, lines);
   for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
@@ -133,14 +132,17 @@ void addHiddenEnds(const ObservedObject& object,
     const bool reaches = is_seen && reached != pieces.end() && !knows(known, line);
     if (reaches)
       evidence.tangents.push_back(endOf(*reached));
-    if (!knows(own, line) && !(reaches && reached->offset == line.offset))
-      limits.push_back(endOf(line));
+    if (knows(own, line) || (reaches && reached->offset == line.offset))
+      continue;
+    const bool hides = object.outline == OutlineSource::MASK && !atBorder(line.contact);
+    (hides ? behind : evidence.limits).push_back(endOf(line));
   }
-  // how far the object goes on is one thing that is not known, not one for each line
-  const double sigma =
-      HIDDEN_SIGMA * object.extent * std::sqrt(double(limits.size() - first));
-  for (std::size_t i = first; i < limits.size(); ++i)
-    limits[i].sigma = sigma;
+  // how far it goes on behind another is one thing that is not known, not one for each
+  // line
+  for (TangentPlane& end : behind) {
+    end.sigma *= std::sqrt(double(behind.size()));
+    evidence.limits.push_back(end);
+  }
 }
 
 } // namespace
