@@ -93,7 +93,7 @@ VesselProfile::VesselProfile(const Superquadric& s) {
   for (int i = 0; i <= OUTER; ++i)
     outside[std::size_t(i)] = placeAt(s, between(bottom, top, double(i) / OUTER), 0.0);
   for (int i = 0; i <= INNER; ++i)
-    inside[std::size_t(i + 1)] =
+    inside[std::size_t(i) + 1] =
         placeAt(s, between(floor, top, double(i) / INNER), s.wall);
   inside[0] = inside[1];
   inside[0].at.x() = 0.0;

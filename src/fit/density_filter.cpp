@@ -47,7 +47,7 @@ UnitPoints densePoints(const UnitPoints& points) {
     reach = std::max(reach, points[i].cwiseAbs().maxCoeff());
   const Eigen::Vector3f half =
       Eigen::Vector3f::Constant(std::min(1.08F * reach, EXTENT) + 1e-6F);
-  Grid grid(CELLS * CELLS * CELLS, 0);
+  Grid grid(std::size_t(CELLS) * CELLS * CELLS, 0);
   std::vector<int> cell(n);
   for (std::size_t i = 0; i < n; ++i) {
     cell[i] = cellOf(points[i], half);
