@@ -104,6 +104,13 @@ std::vector<Piece> splitSolids(const PieceContext& context,
     min_gain = std::max(min_gain,
                         systematic * COARSE_GAIN * context.observed.effective_points);
   }
+  Part one;
+  one.piece = std::move(whole);
+  traceAgain(solids, one);
+  const bool is_solid = one.piece.fit.chosen.shape != ShapeClass::VESSEL;
+  if (is_solid && !exactly && !mayBeCut(solids, one, min_gain))
+    return {std::move(one.piece)}; // as finely fitted as it can be
+  whole = std::move(one.piece);
   fitPiece(solids, whole, Effort::AGAIN);
   std::vector<Piece> pieces =
       splitWholeCloud(solids, std::move(whole), wanted, exactly, min_gain);

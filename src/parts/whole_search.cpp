@@ -122,6 +122,20 @@ void WholeMoves::refine(Description& d) const {
   settle(d);
 }
 
+namespace {
+
+/** \brief Of a part, with the parameters that it brings along. */
+double priceOf(const PieceContext& context, double min_gain) {
+  return min_gain +
+         FEWEST_PARAMETERS * std::log(1.0 + context.observed.effective_points);
+}
+
+} // namespace
+
+bool mayBeCut(const PieceContext& context, const Part& whole, double min_gain) {
+  return mostGain(context, whole) >= priceOf(context, min_gain);
+}
+
 std::vector<Piece> splitWholeCloud(const PieceContext& context,
                                    Piece whole,
                                    int wanted,
@@ -130,14 +144,13 @@ std::vector<Piece> splitWholeCloud(const PieceContext& context,
   Part one;
   one.piece = std::move(whole);
   traceAgain(context, one);
-  const double price =
-      min_gain + FEWEST_PARAMETERS * std::log(1.0 + context.observed.effective_points);
-  if (!exactly && mostGain(context, one) < price)
+  if (!exactly && !mayBeCut(context, one, min_gain))
     return {std::move(one.piece)};
   std::vector<Piece> pieces;
-  for (Member& m : WholeSearch(context, wanted, exactly, min_gain, price)
-                       .run(std::move(one))
-                       .members)
+  for (Member& m :
+       WholeSearch(context, wanted, exactly, min_gain, priceOf(context, min_gain))
+           .run(std::move(one))
+           .members)
     pieces.push_back(std::move(m.part.piece));
   return pieces;
 }

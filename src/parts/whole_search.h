@@ -69,6 +69,11 @@ private:
   std::map<std::pair<std::size_t, std::size_t>, Part> known_;
 };
 
+/** \brief Whether anything is left to explain that more than one part may pay for.
+ * \param[in] min_gain of the score, for one more part */
+[[nodiscard]] bool
+mayBeCut(const PieceContext& context, const Part& whole, double min_gain);
+
 /** \brief Splits an object without a camera while that pays, its parts fitted to the
  * points nearest to each.
  * \param[in] context with the noise that parts are not worth to explain
