@@ -220,7 +220,7 @@ void fitBentAllPoints(const ViewProblem& problem,
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
   const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma),
                          start,
-                         problem.eye() ? ITERATIONS : 6);
+                         problem.eye() ? ITERATIONS : ALL_ROUND_ITERATIONS);
   if (!(rod.cost < 1e299))
     return;
   chosen.bic += rod.cost - chosen.cost;

@@ -12,6 +12,7 @@ namespace pcl_sq::detail {
 namespace {
 
 using namespace tuning::family;
+using namespace tuning::vessel_starts;
 
 /** \brief Profiles of household vessels: cup, pot or plate, bowl. */
 struct Kind {
@@ -54,8 +55,6 @@ Round seenRound(const UnitPoints& points, const Superquadric& s) {
 /** \brief From all round: a handle makes it wider in one direction, not in the
  * narrowest one; the body is then at either end. */
 Round wholeRound(const UnitPoints& points, const Superquadric& s) {
-  constexpr int DIRECTIONS = 12;
-  constexpr double NO_HANDLE = 0.1; // of the radius: fingers go through one
   Interval narrow{0.0, 1e300};
   Eigen::Vector3d direction = s.rotation.col(0);
   for (int k = 0; k < DIRECTIONS; ++k) {

@@ -115,7 +115,16 @@ inline constexpr double START_EPSILON = 0.4;
 inline constexpr double MOST_BENT = 0.9;
 } // namespace bent_starts
 
+namespace vessel_starts {
+/// [1] directions in which a whole vessel's width is looked at; budget
+inline constexpr int DIRECTIONS = 12;
+/// [radius] by which a handle widens a vessel at least; fingers go through it
+inline constexpr double NO_HANDLE = 0.1;
+} // namespace vessel_starts
+
 namespace fit_bent {
+/// [steps] of a last fit where the points show all sides; budget
+inline constexpr int ALL_ROUND_ITERATIONS = 6;
 /// [1] least length over width of a rod; definition
 inline constexpr double SLENDER = 2.0;
 /// [1] of a rod's length that has points; chosen
