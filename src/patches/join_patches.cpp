@@ -104,7 +104,7 @@ private:
         if (std::min(list_[std::size_t(a)].pixels.size(),
                      list_[std::size_t(b)].pixels.size()) < SCRAP)
           continue;
-        if (areNear(a, b) || (view_.colors.cols() > 0 && sameColor(a, b, ONE_COLOR)))
+        if (areNear(a, b) || sameColor(a, b, ONE_COLOR))
           pairs.emplace_back(a, b);
       }
     return pairs;
@@ -113,7 +113,7 @@ private:
   /** \brief Joins pieces of one colour, the larger one given first, while any two are
    * one thing. */
   void joinAlike(const std::function<bool(int, int)>& areOne) {
-    for (bool joined = view_.colors.cols() > 0; joined;) {
+    for (bool joined = true; joined;) {
       joined = false;
       for (int a = 0; a < int(list_.size()) && !joined; ++a)
         for (int b = 0; b < int(list_.size()) && !joined; ++b)

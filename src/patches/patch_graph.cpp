@@ -85,7 +85,7 @@ bool PatchGraph::isCarried(int a) const {
   for (int b = 0; b < int(list_.size()); ++b) {
     const auto border = borders_.find(std::minmax(a, b));
     if (b == a || !alive(b) || border == borders_.end() || !touches(border->second) ||
-        (view_.colors.cols() > 0 && sameColor(a, b)))
+        sameColor(a, b))
       continue;
     const std::vector<int>& pixels = list_[std::size_t(b)].pixels;
     const auto level = std::count_if(pixels.begin(), pixels.end(), [&](int c) {
@@ -108,7 +108,7 @@ bool PatchGraph::isHiddenBelow(int a) const {
     const Patch& other = list_[std::size_t(b)];
     if (alive(b) && stands(other) && !sameColor(a, b) &&
         other.sums.mean().z() < thing.sums.mean().z())
-      return view_.colors.cols() > 0;
+      return true;
   }
   return false;
 }

@@ -10,7 +10,7 @@ namespace pcl_sq::detail {
 struct SceneView {
   const CloudPoints& points;
   int width, height;
-  const ColorMatrix& colors; ///< empty: none
+  const ColorMatrix& colors; ///< of each point; all one where there are none
   PinholeCamera camera;      ///< at the origin
   TableModel table;          ///< in the camera's frame
   unsigned int threads = 1;  ///< 0: all cores

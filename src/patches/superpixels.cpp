@@ -48,8 +48,7 @@ public:
     normals_ = pixelNormals(view, pixels, SIGMAS * noise_);
     for (const int c : set_) {
       of_pixel_[std::size_t(c)] = cellOf(c);
-      if (view.colors.cols() > 0)
-        shades_[std::size_t(c)] = shadeOf(view.colors.col(c).cast<double>());
+      shades_[std::size_t(c)] = shadeOf(view.colors.col(c).cast<double>());
     }
   }
 
@@ -210,8 +209,7 @@ Superpixels divide(const SceneView& view, const CellMask& pixels) {
     sums.count += 1.0;
     sums.point += p;
     sums.square += p * p.transpose();
-    if (view.colors.cols() > 0)
-      sums.color += view.colors.col(c).cast<double>();
+    sums.color += view.colors.col(c).cast<double>();
   }
   std::vector<Eigen::Vector3d> normals;
   for (const PieceSums& piece : result.pieces)

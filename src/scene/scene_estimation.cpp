@@ -145,10 +145,13 @@ bool SceneEstimator::tellApart() {
     PinholeCamera camera = camera_;
     camera.center.setZero();
     camera.rotation.setIdentity();
+    ColorMatrix plain; // of a cloud without colours all has one
+    if (input_.colors.size() == 0)
+      plain.setZero(3, input_.points.cols());
     const SceneView view{seen,
                          input_.width,
                          input_.height,
-                         input_.colors,
+                         input_.colors.size() > 0 ? input_.colors : plain,
                          camera,
                          CameraPose(camera_).toCamera(*scene_.table),
                          threads_};

@@ -83,8 +83,16 @@ int countThings(const ObservedObject& object,
   PinholeCamera camera = object.camera;
   camera.center.setZero();
   camera.rotation.setIdentity();
-  const SceneView view{
-      seen, mask.width, mask.height, colors, camera, pose.toCamera(*object.table), 1};
+  ColorMatrix plain; // of a cloud without colours all has one
+  if (colors.size() == 0)
+    plain.setZero(3, points.cols());
+  const SceneView view{seen,
+                       mask.width,
+                       mask.height,
+                       colors.size() > 0 ? colors : plain,
+                       camera,
+                       pose.toCamera(*object.table),
+                       1};
   CellMask pixels = mask;
   for (std::size_t i = 0; i < pixels.cells.size(); ++i)
     if (const int c = int(i); pixels.cells[i])

@@ -28,8 +28,6 @@ float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
 } // namespace
 
 TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(view) {
-  if (view.colors.cols() == 0)
-    return;
   columns_ = (view.width + CELL - 1) / CELL;
   rows_ = (view.height + CELL - 1) / CELL;
   std::vector<int> level; // pixels at the table's height, thin things' among them

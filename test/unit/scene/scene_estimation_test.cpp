@@ -4,6 +4,8 @@
 
 #include "seen_scene.h"
 
+#include <pcl/common/io.h>
+
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;
@@ -53,6 +55,19 @@ TEST(SceneEstimation, AThingOfTheTablesColorKeepsAllItsPixels) {
     }
     EXPECT_GT(both, 0.95 * any) << noise;
   }
+}
+
+TEST(SceneEstimation, ACloudWithoutColorsIsAsOneOfOneColor) {
+  const TableScene truth = threeThings();
+  const auto cloud = cloudOf(truth, truth.inCamera(), false);
+  const auto bare = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  pcl::copyPointCloud(*cloud, *bare);
+  SceneEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(bare);
+  Scene scene;
+  ASSERT_TRUE(estimation.estimate(scene));
+  EXPECT_EQ(scene.labels.values, estimate(cloud).labels.values);
+  EXPECT_EQ(scene.objects.size(), 3u);
 }
 
 TEST(SceneEstimation, GivesTheSameInTheRobotsFrame) {
