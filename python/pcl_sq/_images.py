@@ -71,7 +71,7 @@ class _Frames:
 
 
 class StereoSequence(_Frames):
-    """Frames of one stereo camera, each a moment after the last one.
+    """Frames of one stereo camera, each a moment after the last one::
 
         frames = pcl_sq.StereoSequence("calib.yml", roi=(410, 250, 180, 260))
         for left, right in camera:
