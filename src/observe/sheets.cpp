@@ -136,6 +136,13 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
         (sheet.other == 0.0 || std::abs(mean) < std::abs(sheet.other)))
       sheet.other = mean;
   }
+  // a curved surface leaves its plane on all sides; one that a quadratic surface fits
+  // to less than another sheet's own unevenness is a single one
+  if (sheet.other != 0.0) {
+    const LocalQuadric all = localQuadric(points, near);
+    if (all.residuals.size() > 0 && all.scatter() < EVEN * std::abs(sheet.other))
+      sheet.other = 0.0;
+  }
   std::vector<Eigen::Index> same;
   for (std::size_t k = 0; k < n; ++k)
     if (sheet.other == 0.0 || std::abs(height[k]) < 0.5 * std::abs(sheet.other))
