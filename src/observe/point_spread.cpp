@@ -32,10 +32,12 @@ double deviation(const std::vector<double>& values) {
   return sum / double(values.size());
 }
 
-/** \brief A direction and how uneven the points' number per pixel is from there. */
+/** \brief A direction, how uneven the points' number per pixel is from there, and how
+ * far the points face it together or turn away from it together [0, 1]. */
 struct Look {
   Eigen::Vector3d direction;
   double uneven;
+  double facing;
 };
 
 double leastOf(const std::vector<Look>& looks) {
@@ -47,13 +49,20 @@ double leastOf(const std::vector<Look>& looks) {
 
 /** \brief The mean of directions by their odds, opposite ones taken as one. Of errors
  * that fall off exponentially, of unknown size, the odds are a power of the unevenness:
- * where several directions are nearly as even, the best of them is chance. */
+ * where several directions are nearly as even, the best of them is chance. A box's
+ * three sides are spread alike for four of them, as the cosines have no sign: of such
+ * only those count that the sides face together. */
 Eigen::Vector3d likelyAxis(const std::vector<Look>& looks, double independent) {
   const double least = leastOf(looks);
+  double facing = 0.0;
+  for (const Look& look : looks)
+    if (look.uneven < MORE * least)
+      facing = std::max(facing, look.facing);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Look& look : looks)
-    sum += std::pow(least / look.uneven, independent) * look.direction *
-           look.direction.transpose();
+    if (look.facing > facing - TOGETHER)
+      sum += std::pow(least / look.uneven, independent) * look.direction *
+             look.direction.transpose();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2);
 }
 
@@ -77,10 +86,14 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   if (Eigen::Index(patches_.size()) < FEWEST)
     return;
   const double distance = FAR * 0.5 * box.diagonal().norm();
+  middle_.setZero();
+  for (const Patch& patch : patches_)
+    middle_ += patch.place / double(patches_.size());
   std::vector<Look> looks;
   const auto look = [&](const Eigen::Vector3d& direction) {
     // the opposite one is as even
-    looks.push_back({direction, unevenness(box.center() + distance * direction)});
+    const Eigen::Vector3d place = box.center() + distance * direction;
+    looks.push_back({direction, unevenness(place), facing(place)});
   };
   for (int i = 0; i < DIRECTIONS; ++i) {
     // Fibonacci's spiral: about equally many everywhere on the sphere
@@ -154,6 +167,18 @@ double PointSpread::unevenness(const Eigen::Vector3d& place) const {
     in_image.push_back(patch.density * square / std::max(cosine, GRAZING));
   }
   return deviation(in_image);
+}
+
+double PointSpread::facing(const Eigen::Vector3d& place) const {
+  double sum = 0.0, known = 0.0;
+  for (const Patch& patch : patches_) {
+    const double outside = patch.normal.dot(patch.place - middle_);
+    if (std::abs(outside) < ASIDE * (patch.place - middle_).norm())
+      continue; // of a flat thing nobody knows which side is outside
+    known += 1.0;
+    sum += outside * patch.normal.dot(place - patch.place) > 0.0 ? 1.0 : -1.0;
+  }
+  return known > 0.0 ? std::abs(sum) / known : 1.0;
 }
 
 bool PointSpread::allows(const Eigen::Vector3d& place) const {

@@ -39,8 +39,12 @@ private:
                                       const std::vector<Eigen::Index>& around);
   /** \brief Of the logarithm of the points' number per pixel: how uneven it is. */
   double unevenness(const Eigen::Vector3d& place) const;
+  /** \brief How far all patches face a place, or all turn away from it, their outsides
+   * being those of a convex body [0, 1]. */
+  double facing(const Eigen::Vector3d& place) const;
 
   std::vector<Patch> patches_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero(); ///< of the patches
   double least_ = 0.0; ///< unevenness from the likeliest direction
   std::optional<Eigen::Vector3d> direction_;
 };

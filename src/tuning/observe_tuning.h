@@ -138,6 +138,11 @@ inline constexpr double SPACING = 0.14;
 /// [1] how much more uneven one place's image is than another's; a scatter of PATCHES
 /// is known to 5 %, and this is four times the deviation of two
 inline constexpr double MORE = 1.25;
+/// [1] cosine between a patch's normal and the way from the middle to it, below which
+/// nobody knows which side is outside; chosen
+inline constexpr double ASIDE = 0.2;
+/// [1] of the share that faces the camera; a tenth of a body's sides turned about
+inline constexpr double TOGETHER = 0.2;
 } // namespace point_spread
 
 namespace sheets {
