@@ -90,7 +90,8 @@ Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) 
 FreeSpaceCost::FreeSpaceCost(const PieceContext& context, const Piece& piece)
     : context_(context) {
   const ObservedObject& o = context.observed;
-  if (o.outline != OutlineSource::MASK && o.outline != OutlineSource::DEPTH)
+  // an outline that depth alone told errs by more than its pixels
+  if (o.outline != OutlineSource::MASK)
     return;
   const std::size_t stride = std::max<std::size_t>(1, piece.pixels.size() / INSIDE);
   weight_ = std::min(
