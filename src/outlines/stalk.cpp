@@ -309,9 +309,7 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
 }
 
 /** \brief One stalk. \return whether there is one that pays */
-bool addStalk(const PieceContext& context,
-              std::vector<Piece>& pieces,
-              double min_gain) {
+bool addStalk(const PieceContext& context, std::vector<Piece>& pieces) {
   const ObservedObject& o = context.observed;
   const Rest left = restOf(context, pieces);
   double worth;
@@ -319,7 +317,7 @@ bool addStalk(const PieceContext& context,
   // a parameter costs what the observations weigh that bear on it (Berger, Bayarri and
   // Pericchi 2014), which are few
   const double price = PARAMETERS * std::log(1.0 + worth / MAX_COST);
-  if (!(worth > price + min_gain))
+  if (!(worth > price + ODDS))
     return false;
   const std::size_t k = nearestPiece(context, pieces, cluster.front());
   const Superquadric body = pieces[k].fit.fit.model;
@@ -365,7 +363,7 @@ bool addStalk(const PieceContext& context,
   if (next[k].stands) // of a handle fitHandle() knows more than its points tell
     fitPiece(context, next[k], Effort::FINAL);
   next.push_back(std::move(stalk));
-  if (!(scoreOf(context, next) < scoreOf(context, pieces) - min_gain))
+  if (!(scoreOf(context, next) < scoreOf(context, pieces) - ODDS))
     return false;
   pieces = std::move(next);
   return true;
@@ -373,13 +371,10 @@ bool addStalk(const PieceContext& context,
 
 } // namespace
 
-void addStalks(const PieceContext& context,
-               std::vector<Piece>& pieces,
-               int wanted,
-               double min_gain) {
+void addStalks(const PieceContext& context, std::vector<Piece>& pieces, int wanted) {
   if (context.observed.outline != OutlineSource::MASK)
     return;
-  while (int(pieces.size()) < wanted && addStalk(context, pieces, min_gain))
+  while (int(pieces.size()) < wanted && addStalk(context, pieces))
     ;
 }
 

@@ -10,11 +10,7 @@ namespace pcl_sq::detail {
  * own, a round rod, where that explains points and outline better. An apple's stalk has
  * too few points that cuts would see it, and its outline is the only one there is.
  * \param[in,out] pieces fitted
- * \param[in] wanted parts at most
- * \param[in] min_gain in score that a part must have */
-void addStalks(const PieceContext& context,
-               std::vector<Piece>& pieces,
-               int wanted,
-               double min_gain);
+ * \param[in] wanted parts at most */
+void addStalks(const PieceContext& context, std::vector<Piece>& pieces, int wanted);
 
 } // namespace pcl_sq::detail

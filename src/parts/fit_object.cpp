@@ -263,7 +263,7 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
       finish(context, pieces);
       if (options.parts == 0)
-        addStalks(context, pieces, wanted, min_gain);
+        addStalks(context, pieces, wanted);
       if (options.parts == 0)
         takeWholeIfBetter(context, whole, pieces);
     } else if (!fitWholeVessel(context, pieces))

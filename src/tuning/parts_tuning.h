@@ -177,6 +177,9 @@ inline constexpr double INSET = 0.2;
 } // namespace outline_gaps
 
 namespace stalk {
+/// [-2 ln] odds of 10 to 1 against one: one place is looked at, the likeliest, not many
+/// cuts; odds
+inline constexpr double ODDS = 4.6;
 /// [parameters] of a rod: two ends in the image, depth, slope, radius; geometry
 inline constexpr int PARAMETERS = 7;
 /// [points] that tell how far away it is by their median
