@@ -2,12 +2,12 @@
 // M30: what sticks out of the outline of all parts is a rod.
 #include "outlines/stalk.h"
 
+#include "outlines/left_over.h"
 #include "outlines/outline_cost.h"
 #include "pieces/body_outline.h"
 #include "pieces/free_space.h"
 #include "sensor/local_quadric.h"
 #include "tuning/parts_tuning.h"
-#include "union/surface_statistics.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -22,84 +22,6 @@ using namespace tuning::shared;
 using namespace tuning::stalk;
 
 using Pixels = std::vector<Eigen::Vector2d>;
-
-/** \brief What no part explains, on the coarse grid of the outline: pixels that the
- * parts leave, and those whose points stand off all parts. */
-struct Rest {
-  Pixels cells;              ///< one for each cell of the grid
-  std::vector<double> worth; ///< cost of what the cell holds
-  std::vector<int> columns;  ///< of the points that stand off
-};
-
-/** \brief Smallest corner of a pixel's cell. */
-Eigen::Vector2d cellOf(const Eigen::Vector2d& pixel) {
-  constexpr double STEP = tuning::outline_gaps::STEP;
-  return {STEP * std::floor(pixel.x() / STEP), STEP * std::floor(pixel.y() / STEP)};
-}
-
-Eigen::Vector2d pixelOf(const ObservedObject& o, int column) {
-  return o.camera.project(o.points.col(column)).array().round();
-}
-
-MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
-  MultiSuperquadric model;
-  for (const Piece& piece : pieces)
-    model.parts.push_back(piece.fit.fit.model);
-  return model;
-}
-
-Rest restOf(const PieceContext& context, const std::vector<Piece>& pieces) {
-  const ObservedObject& o = context.observed;
-  Rest rest;
-  for (const Eigen::Vector2d& p : pixelsLeft(context, pieces)) {
-    rest.cells.push_back(cellOf(p));
-    rest.worth.push_back(contradictionCost(o));
-  }
-  const MultiSuperquadric model = modelOf(pieces);
-  const std::vector<double> distances =
-      smallestResiduals(model, o.points, kernels::Residual::FOOT_POINT);
-  const double least =
-      std::max(STANDS_OFF * context.noise, tuning::outline_gaps::TOLERANCE * o.extent);
-  const double each = MAX_COST * o.effective_points / double(o.points.cols());
-  for (int i = 0; i < int(o.points.cols()); ++i)
-    if (distances[std::size_t(i)] > least) {
-      rest.columns.push_back(i);
-      rest.cells.push_back(cellOf(pixelOf(o, i)));
-      rest.worth.push_back(each);
-    }
-  return rest;
-}
-
-/** \brief Cells that hang together, and are worth most. \param[out] worth of them */
-Pixels worthiestCluster(const Rest& rest, double& worth) {
-  constexpr double NEXT = 2.0 * tuning::outline_gaps::STEP * tuning::outline_gaps::STEP;
-  std::vector<bool> taken(rest.cells.size(), false);
-  Pixels best;
-  worth = 0.0;
-  for (std::size_t first = 0; first < rest.cells.size(); ++first) {
-    if (taken[first])
-      continue;
-    taken[first] = true;
-    std::vector<std::size_t> cluster = {first};
-    double sum = 0.0;
-    for (std::size_t k = 0; k < cluster.size(); ++k) {
-      sum += rest.worth[cluster[k]];
-      for (std::size_t j = 0; j < rest.cells.size(); ++j)
-        if (!taken[j] &&
-            (rest.cells[j] - rest.cells[cluster[k]]).squaredNorm() <= NEXT) {
-          taken[j] = true;
-          cluster.push_back(j);
-        }
-    }
-    if (sum > worth) {
-      worth = sum;
-      best.clear();
-      for (const std::size_t k : cluster)
-        best.push_back(rest.cells[k]);
-    }
-  }
-  return best;
-}
 
 /** \brief Pixels of an object, as a set. */
 CellMask maskOf(const Pixels& pixels, int width, int height) {
@@ -126,36 +48,6 @@ std::size_t nearestPiece(const PieceContext& context,
     }
   }
   return nearest;
-}
-
-/** \brief All pixels of a cluster of cells: those that show what stands off, and up to
- * the object's outline those that its body leaves. */
-Pixels pixelsOf(const PieceContext& context,
-                const Pixels& cluster,
-                const std::vector<int>& off,
-                const Superquadric& body) {
-  const ObservedObject& o = context.observed;
-  const CellMask& object = o.pixels;
-  const RayTest test(body, o.camera.center);
-  constexpr int STEP = tuning::outline_gaps::STEP,
-                REACH = tuning::outline_gaps::MARGIN + 1;
-  CellMask near(object.width, object.height), seen = near, stands = near;
-  for (const int i : off) {
-    const Eigen::Vector2d p = pixelOf(o, i);
-    if (object(int(p.x()), int(p.y())))
-      stands.cells[stands.indexOf(int(p.x()), int(p.y()))] = 1;
-  }
-  Pixels all;
-  for (const Eigen::Vector2d& cell : cluster)
-    for (int y = int(cell.y()) - REACH; y < int(cell.y()) + STEP + REACH; ++y)
-      for (int x = int(cell.x()) - REACH; x < int(cell.x()) + STEP + REACH; ++x)
-        if (object(x, y) && !seen(x, y)) {
-          seen.cells[seen.indexOf(x, y)] = 1;
-          const Eigen::Vector2d p(x, y);
-          if (stands(x, y) || !test.hits(o.camera.ray(p)))
-            all.push_back(p);
-        }
-  return all;
 }
 
 /** \brief Where a stalk is in the image: its middle, its direction away from the body,
@@ -311,17 +203,15 @@ double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
 /** \brief One stalk. \return whether there is one that pays */
 bool addStalk(const PieceContext& context, std::vector<Piece>& pieces) {
   const ObservedObject& o = context.observed;
-  const Rest left = restOf(context, pieces);
-  double worth;
-  const Pixels cluster = worthiestCluster(left, worth);
+  const LeftOver left = leftOver(context, pieces);
   // a parameter costs what the observations weigh that bear on it (Berger, Bayarri and
   // Pericchi 2014), which are few
-  const double price = PARAMETERS * std::log(1.0 + worth / MAX_COST);
-  if (!(worth > price + ODDS))
+  const double price = PARAMETERS * std::log(1.0 + left.worth / MAX_COST);
+  if (!(left.worth > price + ODDS))
     return false;
-  const std::size_t k = nearestPiece(context, pieces, cluster.front());
+  const std::size_t k = nearestPiece(context, pieces, left.cells.front());
   const Superquadric body = pieces[k].fit.fit.model;
-  const Pixels pixels = pixelsOf(context, cluster, left.columns, body);
+  const Pixels pixels = pixelsOf(context, left, body);
   if (pixels.empty())
     return false;
   const CellMask mask = maskOf(pixels, o.pixels.width, o.pixels.height);
