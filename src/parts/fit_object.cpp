@@ -155,7 +155,7 @@ MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
  * handed out, and that is: of a thing that is half hidden, parts may each follow a
  * scrap of what is seen. */
 void takeWholeIfBetter(const PieceContext& context,
-                       Piece whole,
+                       const Piece& whole,
                        std::vector<Piece>& pieces) {
   const auto isRefused = [&](const std::vector<Piece>& of) {
     double noise = 0.0;
@@ -165,7 +165,7 @@ void takeWholeIfBetter(const PieceContext& context,
   };
   if (pieces.size() < 2 || !isRefused(pieces))
     return;
-  std::vector<Piece> one(1, std::move(whole));
+  std::vector<Piece> one(1, whole);
   finish(context, one);
   if (!isRefused(one))
     pieces = std::move(one);
@@ -217,9 +217,8 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : noiseOf(sheetsOf(observed.points,
-                                   std::max<Eigen::Index>(
-                                       1, observed.points.cols() / NOISE_SAMPLES)));
+            : observed.point_noise ? *observed.point_noise
+                                   : noiseOf(sheetsOf(observed.points));
   PieceContext context{
       observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);

@@ -239,7 +239,7 @@ TEST(WholeCloud, CutsOfABodyGainWhatItLeavesUnexplainedAndNoMore) {
 
 TEST(Coverage, APanFromAllRoundIsNoViewUnlessTheUserSaysSo) {
   const Eigen::Matrix3Xd points = pan();
-  EXPECT_TRUE(detail::hasTwoSides(points));
+  EXPECT_TRUE(detail::haveTwoSides(detail::sheetsOf(points)));
   EXPECT_FALSE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_TRUE(observe(points, Coverage::ONE_SIDED).hasCamera());
 }
@@ -253,7 +253,7 @@ TEST(Coverage, HalfABallIsAViewUnlessTheUserSaysItIsComplete) {
     p.z() = std::abs(p.z());
     points.col(i) = (0.1 + 0.001 * random.normal()) * p;
   }
-  EXPECT_FALSE(detail::hasTwoSides(points));
+  EXPECT_FALSE(detail::haveTwoSides(detail::sheetsOf(points)));
   EXPECT_TRUE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_FALSE(observe(points, Coverage::COMPLETE).hasCamera());
 }
