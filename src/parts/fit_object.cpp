@@ -2,8 +2,10 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "geometry/open_body.h"
 #include "observe/sheets.h"
-#include "parts/outline_gaps.h"
+#include "outlines/outline_gaps.h"
+#include "outlines/stalk.h"
 #include "parts/split_view.h"
 #include "parts/union_score.h"
 #include "parts/verdict.h"
@@ -260,12 +262,16 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
       finish(context, pieces);
       if (options.parts == 0)
+        addStalks(context, pieces, wanted);
+      if (options.parts == 0)
         takeWholeIfBetter(context, whole, pieces);
     } else if (!fitWholeVessel(context, pieces))
       pieces =
           splitSolids(context, points_noise, std::move(pieces[0]), wanted, min_gain);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
+  for (Piece& piece : pieces)
+    piece.fit.fit.model = withRimNearTop(piece.fit.fit.model);
   fit.model = modelOf(pieces);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     fit.bic += pieces[k].score;
