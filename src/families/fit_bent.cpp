@@ -213,12 +213,13 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   return chosen;
 }
 
-void fitBentAllPoints(const ViewProblem& problem,
-                      double sigma,
-                      ShapeCandidate& chosen) {
+void fitBentAgain(const ViewProblem& problem,
+                  const UnitPoints& points,
+                  double sigma,
+                  ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma),
+  const Rod rod = fitRod(BentProblem(problem, points, sigma),
                          start,
                          problem.eye() ? ITERATIONS : ALL_ROUND_ITERATIONS);
   if (!(rod.cost < 1e299))

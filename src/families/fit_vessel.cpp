@@ -275,12 +275,13 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   return c;
 }
 
-void fitVesselAllPoints(const ViewProblem& problem,
-                        double sigma,
-                        ShapeCandidate& chosen) {
+void fitVesselAgain(const ViewProblem& problem,
+                    const UnitPoints& points,
+                    double sigma,
+                    ShapeCandidate& chosen) {
   if (!problem.eye())
-    sigma = std::min(sigma, scatterOf(problem.all(), sigma, chosen.model));
-  const Vessel fitted = VesselFamily(problem, problem.all(), sigma)
+    sigma = std::min(sigma, scatterOf(points, sigma, chosen.model));
+  const Vessel fitted = VesselFamily(problem, points, sigma)
                             .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
   chosen.bic += fitted.cost - chosen.cost;
   chosen.cost = fitted.cost;

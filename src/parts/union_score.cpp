@@ -52,29 +52,13 @@ private:
 
 namespace {
 
-/** \brief Signed distances to a tapered body: first-order ones where they make no
- * difference, for those of foot points cost ten times as much. */
-Eigen::VectorXd taperedDistances(const Superquadric& model,
-                                 const Eigen::Matrix3Xd& points,
-                                 double reach) {
-  Eigen::VectorXd distances(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    distances[i] = model.firstOrderDistance(points.col(i));
-    if (std::abs(distances[i]) < 2.0 * reach)
-      distances[i] = model.footPointDistance(points.col(i));
-  }
-  return distances;
-}
-
 std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
                                          const Superquadric& model) {
   auto trace = std::make_shared<BodyTrace>();
   const Eigen::Matrix3Xd& points = context.observed.points;
   trace->model = model;
   trace->box = model.boundingBox();
-  trace->distances = model.isTapered() && !model.isCut()
-                         ? taperedDistances(model, points, OUTLYING * context.noise)
-                         : surfaceDistances(model, points);
+  trace->distances = surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
   // one width for both of two surfaces that run side by side, or the area between them
   // would depend on the sizes of their cells
@@ -149,7 +133,7 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
     const std::vector<TangentPlane> sides = sidesOfBox(context.observed);
     within.limits.insert(within.limits.end(), sides.begin(), sides.end());
     Part held = part;
-    fitPiece(within, held.piece, effort);
+    fitPiece(within, held.piece, Effort::SAME);
     traceAgain(context, held);
     if (held.trace && held.trace->sticks_out < part.trace->sticks_out)
       part = std::move(held);

@@ -150,15 +150,41 @@ void WholeMoves::settle(Description& d) const {
       next.members[k] = d.members[k];
       if (parts[k].piece.points == d.members[k].part.piece.points)
         return;
-      fitPart(context_, parts[k], Effort::AGAIN);
-      next.members[k].part = std::move(parts[k]);
-      next.members[k].ways = nullptr;
+      fitPart(context_, parts[k], Effort::SAME);
+      next.members[k] = {std::move(parts[k]), nullptr};
     });
     next.score = score(next.members);
     if (!(next.score < d.score))
       return;
     d = std::move(next);
   }
+}
+
+void WholeMoves::askFamilies(Description& d) const {
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < d.members.size() && d.score < 1e299; ++k)
+    if (!d.members[k].asked)
+      open.push_back(k);
+  std::vector<Part> again(open.size());
+  parallelFor(open.size(), threads_, [&](std::size_t i) {
+    again[i] = d.members[open[i]].part;
+    fitPart(context_, again[i], Effort::AGAIN);
+  });
+  bool changed = false;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    Member& member = d.members[open[i]];
+    member.asked = true;
+    std::swap(member.part, again[i]);
+    const double with = score(d.members);
+    if (with < d.score) {
+      d.score = with;
+      member.ways = nullptr;
+      changed = true;
+    } else
+      std::swap(member.part, again[i]);
+  }
+  if (changed)
+    settle(d);
 }
 
 Description WholeMoves::cutOnce(Description& d) const {
@@ -190,7 +216,7 @@ Description WholeMoves::cutOnce(Description& d) const {
     const std::vector<Part>& parts = (*d.members[c.member].ways)[c.way].parts;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       Member member{parts[p], nullptr};
-      fitPart(context_, member.part, Effort::AGAIN);
+      fitPart(context_, member.part, Effort::UNBENT);
       if (p == 0)
         members[c.member] = std::move(member);
       else
@@ -205,7 +231,9 @@ Description WholeMoves::cutOnce(Description& d) const {
     if (tries[i].score < least + QUICK_SLACK)
       settle(tries[i]);
   });
-  return bestOf(tries);
+  Description best = bestOf(tries);
+  askFamilies(best);
+  return best;
 }
 
 /** \brief Two members that become one; the same one twice: it is left out. */
@@ -262,7 +290,7 @@ Description WholeMoves::joined(const Description& d, const Join& join) const {
   next.members.erase(next.members.begin() + std::ptrdiff_t(join.b));
   if (join.a != join.b) {
     next.members[join.a] = {join.part, nullptr};
-    fitPart(context_, next.members[join.a].part, Effort::AGAIN);
+    fitPart(context_, next.members[join.a].part, Effort::UNBENT);
   } else {
     std::vector<Part> parts;
     for (const Member& m : next.members)
@@ -273,9 +301,8 @@ Description WholeMoves::joined(const Description& d, const Join& join) const {
       parts[owner[i]].piece.points.push_back(points[i]);
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (parts[k].piece.points.size() != next.members[k].part.piece.points.size()) {
-        fitPart(context_, parts[k], Effort::AGAIN);
-        next.members[k].part = std::move(parts[k]);
-        next.members[k].ways = nullptr;
+        fitPart(context_, parts[k], Effort::SAME);
+        next.members[k] = {std::move(parts[k]), nullptr};
       }
   }
   settle(next);
@@ -289,7 +316,9 @@ Description WholeMoves::mergeOnce(const Description& d) {
     if (joins[t].score < 1e299)
       tries[t] = joined(d, joins[t]);
   });
-  return bestOf(tries);
+  Description best = bestOf(tries);
+  askFamilies(best);
+  return best;
 }
 
 } // namespace pcl_sq::detail

@@ -20,6 +20,7 @@ struct Way {
 struct Member {
   Part part;
   std::shared_ptr<const std::vector<Way>> ways;
+  bool asked = false; ///< whether all families were fitted to its points
 };
 
 /** \brief A description of the object and its score, smaller is better. */
@@ -47,8 +48,9 @@ public:
    * left out and its points given to the others. */
   [[nodiscard]] Description mergeOnce(const Description& d);
 
-  /** \brief Fits all members by all families while that pays. */
-  void refine(Description& d) const;
+  /** \brief Fits those members by all families that only the cheap ones were asked to
+   * describe; what makes the description better is kept. */
+  void askFamilies(Description& d) const;
 
 private:
   struct Join;

@@ -113,12 +113,6 @@ inline constexpr double JOINT = 6.0;
 inline constexpr std::size_t MOST = 1000;
 } // namespace stand_off
 
-namespace exposed_area {
-/// [1] first-order distance over the reach, beyond which a place outside is sure to be:
-/// of a convex body it is never too large; geometry
-inline constexpr double FARTHER = 2.0;
-} // namespace exposed_area
-
 namespace fit_object {
 /// [-2 ln] of the score, for one more part; odds of 150 to 1
 inline constexpr double MIN_GAIN = 10.0;
@@ -186,8 +180,6 @@ inline constexpr double QUICK_FACTOR = 1.5;
 } // namespace split_view
 
 namespace union_score {
-/// [sigma] from which on a point costs the same, to the last digit; Gauss: 2e-19
-inline constexpr double OUTLYING = 9.0;
 /// [1] spacings to the nearest of points that are spread evenly; exp(-pi 2^2): 3e-6
 inline constexpr double FARTHEST = 2.0;
 /// [sigma] between surfaces that are one; chosen
