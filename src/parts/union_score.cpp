@@ -140,12 +140,24 @@ void fitPart(const PieceContext& context, Part& part, Effort effort) {
   }
 }
 
+namespace {
+
+/** \brief What a body is worse by that leaves the points' box: far more than any part
+ * can gain, and yet one such description can be compared with another. */
+double outsideCost(const ObservedObject& o, const BodyTrace& trace) {
+  const double out = trace.sticks_out / (BEYOND * o.extent);
+  return out > 1.0 ? OUTSIDE * out * o.effective_points : 0.0;
+}
+
+} // namespace
+
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
   const ObservedObject& o = context.observed;
   double parameters = 0.0, demand = 0.0, area = 0.0;
   for (const Part* part : parts) {
-    if (!part->trace || part->trace->sticks_out > BEYOND * o.extent)
+    if (!part->trace)
       return 1e300;
+    demand += outsideCost(o, *part->trace);
     parameters += part->piece.fit.chosen.parameters;
     if (part->trace->model.isTapered())
       demand += TAPER;
@@ -168,9 +180,9 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
 }
 
 double mostGain(const PieceContext& context, const Part& part) {
-  if (!part.trace)
-    return 1e300;
   const ObservedObject& o = context.observed;
+  if (!part.trace || outsideCost(o, *part.trace) > 0.0)
+    return 1e300;
   const double off = costOf(context, {&part}) / double(o.points.cols()) - 1.0;
   const double bare =
       -2.0 * std::log(std::max(covered(context, part.trace->model), 1e-6));

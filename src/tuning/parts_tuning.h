@@ -190,6 +190,8 @@ inline constexpr double SLACK = 0.02;
 /// [size] by which it may then still leave it and be a part: beyond the points is
 /// nothing; chosen
 inline constexpr double BEYOND = 0.05;
+/// [-2 ln] of a point, that a body beyond costs at least: as an outlier
+inline constexpr double OUTSIDE = shared::MAX_COST;
 /// [size] of the box's sides; chosen
 inline constexpr double BOX_SIGMA = 0.005;
 } // namespace union_score
