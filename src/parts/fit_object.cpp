@@ -184,6 +184,18 @@ std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   return precision;
 }
 
+/** \brief Whether a whole cloud shows both sides of a wall, as solids do not. In a
+ * dense one neighbours would all be on one side. */
+bool showsWalls(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index step = 1 + (points.cols() - 1) / WALL_POINTS;
+  if (step == 1)
+    return hasTwoSides(points);
+  Eigen::Matrix3Xd some(3, points.cols() / step);
+  for (Eigen::Index i = 0; i < some.cols(); ++i)
+    some.col(i) = points.col(i * step);
+  return hasTwoSides(some);
+}
+
 /** \brief What most points err by at most, where that is known. */
 double medianNoise(const ObservedObject& observed) {
   std::vector<float> noise(observed.noise.data(),
@@ -205,10 +217,13 @@ bool ObjectFitOptions::isValid(std::string* why) const {
   return check.passed() && fit.isValid(why);
 }
 
-ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
+ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& asked) {
   ObjectFit fit;
   if (spannedDimensions(observed.points) < 3)
     return fit;
+  ObjectFitOptions options = asked;
+  options.fit.vessel =
+      options.fit.vessel && (observed.hasCamera() || showsWalls(observed.points));
   double noise = options.fit.noise;
   const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))

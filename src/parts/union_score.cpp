@@ -127,6 +127,10 @@ std::vector<std::size_t> nearestParts(const std::vector<Part>& parts,
 
 void fitPart(const PieceContext& context, Part& part, Effort effort) {
   fitPiece(context, part.piece, effort);
+  traceWithinBox(context, part);
+}
+
+void traceWithinBox(const PieceContext& context, Part& part) {
   traceAgain(context, part);
   if (part.trace && part.trace->sticks_out > SLACK * context.observed.extent) {
     PieceContext within = context;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/whole_search.h"
+#include "solver/surface_area.h"
 #include "tuning/parts_tuning.h"
 #include "util/parallel_for.h"
 
@@ -29,6 +30,25 @@ double scoreWith(const PieceContext& context,
 ObjectFitOptions withoutFamilies(ObjectFitOptions options) {
   options.fit.taper = options.fit.bend = options.fit.vessel = false;
   return options;
+}
+
+/** \brief Area, a taper or bend left out [m^2]. */
+double areaOf(const Superquadric& s) {
+  return std::exp(logArea(s.semi_axes, s.epsilon1, s.epsilon2).value);
+}
+
+bool hasTooFewPoints(const Way& way) {
+  return std::any_of(way.parts.begin(), way.parts.end(), [](const Part& p) {
+    return p.piece.points.size() < MIN_POINTS;
+  });
+}
+
+void keepBest(std::vector<Way>& ways, std::size_t most) {
+  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
+    return a.gain > b.gain;
+  });
+  if (ways.size() > most)
+    ways.resize(most);
 }
 
 /** \brief The best of some descriptions; score 1e300 if there is none. */
@@ -98,41 +118,91 @@ std::vector<Way> WholeMoves::proposals(const Part& part) const {
   return ways;
 }
 
-/** \brief Looks for the ways to cut a member, the best ones first. */
-void WholeMoves::findWays(Description& d, std::size_t k) const {
-  Member& member = d.members[k];
-  if (member.ways)
-    return;
-  std::vector<Way> ways = proposals(member.part);
-  const auto room = std::size_t(std::max(0, wanted_ - int(d.members.size()) + 1));
-  ways.erase(std::remove_if(ways.begin(),
-                            ways.end(),
-                            [&](const Way& way) {
-                              return way.parts.size() > room ||
-                                     std::any_of(way.parts.begin(),
-                                                 way.parts.end(),
-                                                 [](const Part& p) {
-                                                   return p.piece.points.size() <
-                                                          MIN_POINTS;
-                                                 });
-                            }),
-             ways.end());
+/** \brief Ways to cut a part, by quick fits and what points and areas alone say of
+ * them. \param[in] rest area of the other parts [m^2] */
+std::vector<Way> WholeMoves::quickWays(const Part& part, double rest, int room) const {
+  std::vector<Way> ways = proposals(part);
+  const auto isNone = [room](const Way& way) {
+    return int(way.parts.size()) > room || hasTooFewPoints(way);
+  };
+  ways.erase(std::remove_if(ways.begin(), ways.end(), isNone), ways.end());
   std::vector<std::pair<std::size_t, std::size_t>> fits;
   for (std::size_t w = 0; w < ways.size(); ++w)
     for (std::size_t p = 0; p < ways[w].parts.size(); ++p)
       fits.emplace_back(w, p);
   parallelFor(fits.size(), threads_, [&](std::size_t i) {
-    fitPart(plain_, ways[fits[i].first].parts[fits[i].second], Effort::QUICK);
+    fitPiece(plain_, ways[fits[i].first].parts[fits[i].second].piece, Effort::QUICK);
   });
+  for (Way& way : ways) {
+    double misfit = 0.0, area = rest;
+    for (const Part& p : way.parts) {
+      misfit += p.piece.misfit;
+      area += areaOf(p.piece.fit.fit.model);
+    }
+    way.gain = -misfit - 2.0 * context_.observed.effective_points * std::log(area);
+  }
+  keepBest(ways, SCREENED);
+  return ways;
+}
+
+/** \brief Gives the ways to cut a part the points that came to it since, and takes
+ * those that have left it. \return whether they were few */
+bool WholeMoves::adapt(const Part& part, std::vector<Way>& ways) const {
+  if (ways.empty())
+    return false;
+  std::vector<int> points = part.piece.points, before, gained;
+  for (const Part& p : ways.front().parts)
+    before.insert(before.end(), p.piece.points.begin(), p.piece.points.end());
+  std::sort(points.begin(), points.end());
+  std::sort(before.begin(), before.end());
+  std::set_difference(points.begin(),
+                      points.end(),
+                      before.begin(),
+                      before.end(),
+                      std::back_inserter(gained));
+  const std::size_t lost = before.size() + gained.size() - points.size();
+  if (double(gained.size() + lost) > FEW * double(points.size()))
+    return false;
+  for (Way& way : ways) {
+    const std::vector<std::size_t> owner = nearestParts(way.parts, gained);
+    for (Part& p : way.parts) {
+      std::vector<int>& own = p.piece.points;
+      const auto isLost = [&points](int i) {
+        return !std::binary_search(points.begin(), points.end(), i);
+      };
+      own.erase(std::remove_if(own.begin(), own.end(), isLost), own.end());
+    }
+    for (std::size_t i = 0; i < gained.size(); ++i)
+      way.parts[owner[i]].piece.points.push_back(gained[i]);
+  }
+  ways.erase(std::remove_if(ways.begin(), ways.end(), hasTooFewPoints), ways.end());
+  return true;
+}
+
+/** \brief Looks for the ways to cut a member, the best ones first. */
+void WholeMoves::findWays(Description& d, std::size_t k) const {
+  Member& member = d.members[k];
+  if (member.is_current)
+    return;
+  std::vector<Way> ways;
+  if (member.ways)
+    ways = *member.ways;
+  if (!adapt(member.part, ways)) {
+    double rest = 0.0;
+    for (const Member& other : d.members)
+      if (&other != &member)
+        rest += areaOf(other.part.piece.fit.fit.model);
+    ways = quickWays(member.part, rest, wanted_ - int(d.members.size()) + 1);
+  }
   parallelFor(ways.size(), threads_, [&](std::size_t w) {
+    for (Part& p : ways[w].parts)
+      if (!p.trace)
+        traceWithinBox(plain_, p);
     ways[w].gain = d.score - scoreWith(context_, d, k, ways[w]);
   });
-  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
-    return a.gain > b.gain;
-  });
-  if (ways.size() > KEPT)
-    ways.resize(KEPT);
+  keepBest(ways, KEPT);
   member.ways = std::make_shared<const std::vector<Way>>(std::move(ways));
+  member.is_current = true;
 }
 
 /** \brief Gives points to the nearest part and fits the parts again while that pays. */
@@ -151,7 +221,7 @@ void WholeMoves::settle(Description& d) const {
       if (parts[k].piece.points == d.members[k].part.piece.points)
         return;
       fitPart(context_, parts[k], Effort::SAME);
-      next.members[k] = {std::move(parts[k]), nullptr};
+      next.members[k] = {std::move(parts[k]), next.members[k].ways};
     });
     next.score = score(next.members);
     if (!(next.score < d.score))
@@ -178,7 +248,7 @@ void WholeMoves::askFamilies(Description& d) const {
     const double with = score(d.members);
     if (with < d.score) {
       d.score = with;
-      member.ways = nullptr;
+      member.is_current = false;
       changed = true;
     } else
       std::swap(member.part, again[i]);
@@ -302,7 +372,7 @@ Description WholeMoves::joined(const Description& d, const Join& join) const {
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (parts[k].piece.points.size() != next.members[k].part.piece.points.size()) {
         fitPart(context_, parts[k], Effort::SAME);
-        next.members[k] = {std::move(parts[k]), nullptr};
+        next.members[k] = {std::move(parts[k]), next.members[k].ways};
       }
   }
   settle(next);

@@ -81,7 +81,7 @@ bool WholeSearch::isPromising(std::size_t parts) const {
 
 Description WholeSearch::run(Part whole) {
   found_.resize(2);
-  found_[1].members.push_back({std::move(whole), nullptr, true});
+  found_[1].members.push_back({std::move(whole), nullptr, false, true});
   found_[1].score = moves_.score(found_[1].members);
   bool changed = true;
   for (int sweep = 0; sweep < SWEEPS && changed; ++sweep) {

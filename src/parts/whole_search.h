@@ -20,7 +20,8 @@ struct Way {
 struct Member {
   Part part;
   std::shared_ptr<const std::vector<Way>> ways;
-  bool asked = false; ///< whether all families were fitted to its points
+  bool is_current = false; ///< whether the ways are those of its present points
+  bool asked = false;      ///< whether all families were fitted to its points
 };
 
 /** \brief A description of the object and its score, smaller is better. */
@@ -56,6 +57,8 @@ private:
   struct Join;
 
   std::vector<Way> proposals(const Part& part) const;
+  std::vector<Way> quickWays(const Part& part, double rest, int room) const;
+  bool adapt(const Part& part, std::vector<Way>& ways) const;
   void findWays(Description& d, std::size_t k) const;
   void settle(Description& d) const;
   std::vector<Join> joinsOf(const Description& d);

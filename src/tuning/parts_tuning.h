@@ -150,6 +150,8 @@ inline constexpr int MOST_IN_VIEW = 6;
 inline constexpr int MOST_ALL_ROUND = 16;
 /// [points] at which noise is measured; it is known to 7 %
 inline constexpr std::ptrdiff_t NOISE_SAMPLES = 200;
+/// [points] of which most have neighbours on a thin wall's other side; budget
+inline constexpr std::ptrdiff_t WALL_POINTS = 5000;
 /// [px] by which measurements lie beside their pixels: a matching window's nearer side,
 /// lateral noise; sensors
 inline constexpr double SIDEWAYS = 0.5;
@@ -216,6 +218,11 @@ inline constexpr double EVEN = 0.5;
 namespace whole_search {
 /// [cuts] of a part that are remembered; budget
 inline constexpr std::size_t KEPT = 3;
+/// [cuts] of a part that are scored, of those that quick fits describe best; budget
+inline constexpr std::size_t SCREENED = 8;
+/// [1] of a part's points that come or go before its cuts are looked for again; the
+/// margin in which none is
+inline constexpr double FEW = 0.05;
 /// [cuts, joins] best of all parts, that are fitted in full; budget
 inline constexpr std::size_t TRIED = 3;
 /// [rounds] of assigning points and fitting again; budget
