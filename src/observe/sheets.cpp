@@ -186,6 +186,16 @@ double doubled(const std::vector<Sheet>& sheets) {
   return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
 }
 
+bool showsWalls(const Eigen::Matrix3Xd& points, const std::vector<Sheet>& sheets) {
+  const Eigen::Index step = 1 + (points.cols() - 1) / WALL_POINTS;
+  if (step == 1)
+    return doubled(sheets) > TWO_SIDES;
+  Eigen::Matrix3Xd some(3, points.cols() / step);
+  for (Eigen::Index i = 0; i < some.cols(); ++i)
+    some.col(i) = points.col(i * step);
+  return hasTwoSides(some);
+}
+
 bool hasTwoSides(const Eigen::Matrix3Xd& points) {
   const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / LOOKED_AT);
   return doubled(sheetsOf(points, step)) > TWO_SIDES;

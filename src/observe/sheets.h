@@ -29,6 +29,11 @@ double noiseOf(const std::vector<Sheet>& sheets);
 /** \brief Share of the sheets that have another one beyond them. */
 double doubled(const std::vector<Sheet>& sheets);
 
+/** \brief Whether a whole cloud shows both sides of walls, as solids do not. Where it
+ * is dense, fewer points are looked at: all neighbours would be on one side. \param[in]
+ * sheets of all points */
+bool showsWalls(const Eigen::Matrix3Xd& points, const std::vector<Sheet>& sheets);
+
 /** \brief Whether points show both sides of thin walls, as no single view does. */
 bool hasTwoSides(const Eigen::Matrix3Xd& points);
 

@@ -184,18 +184,6 @@ std::vector<float> precisionOf(const ObservedObject& observed, double noise) {
   return precision;
 }
 
-/** \brief Whether a whole cloud shows both sides of a wall, as solids do not. In a
- * dense one neighbours would all be on one side. */
-bool showsWalls(const Eigen::Matrix3Xd& points) {
-  const Eigen::Index step = 1 + (points.cols() - 1) / WALL_POINTS;
-  if (step == 1)
-    return hasTwoSides(points);
-  Eigen::Matrix3Xd some(3, points.cols() / step);
-  for (Eigen::Index i = 0; i < some.cols(); ++i)
-    some.col(i) = points.col(i * step);
-  return hasTwoSides(some);
-}
-
 /** \brief What most points err by at most, where that is known. */
 double medianNoise(const ObservedObject& observed) {
   std::vector<float> noise(observed.noise.data(),
@@ -222,17 +210,20 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& aske
   if (spannedDimensions(observed.points) < 3)
     return fit;
   ObjectFitOptions options = asked;
-  options.fit.vessel =
-      options.fit.vessel && (observed.hasCamera() || showsWalls(observed.points));
+  std::vector<Sheet> sheets;
+  if (!observed.hasCamera()) {
+    sheets =
+        sheetsOf(observed.points,
+                 std::max<Eigen::Index>(1, observed.points.cols() / NOISE_SAMPLES));
+    options.fit.vessel = options.fit.vessel && showsWalls(observed.points, sheets);
+  }
   double noise = options.fit.noise;
   const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : noiseOf(sheetsOf(observed.points,
-                                   std::max<Eigen::Index>(
-                                       1, observed.points.cols() / NOISE_SAMPLES)));
+                : noiseOf(sheets);
   PieceContext context{
       observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);

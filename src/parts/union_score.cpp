@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/union_score.h"
 
-#include "parts/exposed_area.h"
 #include "tuning/parts_tuning.h"
+#include "union/exposed_area.h"
 #include "util/point_grid.h"
 #include "view_problem/plane_cost.h"
 

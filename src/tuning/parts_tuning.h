@@ -150,8 +150,6 @@ inline constexpr int MOST_IN_VIEW = 6;
 inline constexpr int MOST_ALL_ROUND = 16;
 /// [points] at which noise is measured; it is known to 7 %
 inline constexpr std::ptrdiff_t NOISE_SAMPLES = 200;
-/// [points] of which most have neighbours on a thin wall's other side; budget
-inline constexpr std::ptrdiff_t WALL_POINTS = 5000;
 /// [px] by which measurements lie beside their pixels: a matching window's nearer side,
 /// lateral noise; sensors
 inline constexpr double SIDEWAYS = 0.5;
@@ -226,7 +224,7 @@ inline constexpr double FEW = 0.05;
 /// [cuts, joins] best of all parts, that are fitted in full; budget
 inline constexpr std::size_t TRIED = 3;
 /// [rounds] of assigning points and fitting again; budget
-inline constexpr int ROUNDS = 3;
+inline constexpr int ROUNDS = 8;
 /// [sweeps] over all numbers of parts, to more and back to fewer; budget
 inline constexpr int SWEEPS = 2;
 /// [parts] beyond the best number, that are tried: one cut of a handle with two corners

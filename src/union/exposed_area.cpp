@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/exposed_area.h"
+#include "union/exposed_area.h"
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
