@@ -76,7 +76,8 @@ Eigen::Matrix3Xd dish(int count, double wall, unsigned seed) {
   Random random(seed);
   Eigen::Matrix3Xd points(3, count);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const double inset = i % 2 == 0 ? 0.0 : wall, radius = RADIUS - inset;
+    const double inset = random.uniform(0.0, 1.0) < 0.5 ? 0.0 : wall;
+    const double radius = RADIUS - inset;
     const double z =
         random.uniform(inset, HEIGHT) - RADIUS; // a ball's area is even in z
     const double across = std::sqrt(radius * radius - z * z);
