@@ -207,18 +207,23 @@ bool ObjectFitOptions::isValid(std::string* why) const {
   return check.passed() && fit.isValid(why);
 }
 
-ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
+ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& asked) {
   ObjectFit fit;
   if (spannedDimensions(observed.points) < 3)
     return fit;
+  ObjectFitOptions options = asked;
+  ObservedObject::Surface surface;
+  if (!observed.hasCamera()) {
+    surface = observed.surface ? *observed.surface : surfaceOf(observed.points);
+    options.fit.vessel = options.fit.vessel && surface.two_sided;
+  }
   double noise = options.fit.noise;
   const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-            : observed.point_noise ? *observed.point_noise
-                                   : noiseOf(sheetsOf(observed.points));
+                : surface.noise;
   PieceContext context{
       observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
