@@ -20,8 +20,8 @@ struct Sheet {
   double scatter = -1.0;
 };
 
-/** \brief The sheets about every \a step-th point. */
-std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points, Eigen::Index step);
+/** \brief The sheets about some of the points. */
+std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points);
 
 /** \brief Noise of independent points, from the sheets that scatter least [m]. */
 double noiseOf(const std::vector<Sheet>& sheets);
@@ -29,12 +29,11 @@ double noiseOf(const std::vector<Sheet>& sheets);
 /** \brief Share of the sheets that have another one beyond them. */
 double doubled(const std::vector<Sheet>& sheets);
 
-/** \brief Whether a whole cloud shows both sides of walls, as solids do not. Where it
- * is dense, fewer points are looked at: all neighbours would be on one side. \param[in]
- * sheets of all points */
-bool showsWalls(const Eigen::Matrix3Xd& points, const std::vector<Sheet>& sheets);
+/** \brief Whether they are both sides of thin walls, as no single view shows. */
+bool haveTwoSides(const std::vector<Sheet>& sheets);
 
-/** \brief Whether points show both sides of thin walls, as no single view does. */
-bool hasTwoSides(const Eigen::Matrix3Xd& points);
+/** \brief Whether a whole cloud shows both sides of walls, as solids do not. Where it
+ * is dense fewer points are looked at: all neighbours would be on one side. */
+bool showsWalls(const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

@@ -153,7 +153,7 @@ MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
  * handed out, and that is: of a thing that is half hidden, parts may each follow a
  * scrap of what is seen. */
 void takeWholeIfBetter(const PieceContext& context,
-                       Piece whole,
+                       const Piece& whole,
                        std::vector<Piece>& pieces) {
   const auto isRefused = [&](const std::vector<Piece>& of) {
     double noise = 0.0;
@@ -163,7 +163,7 @@ void takeWholeIfBetter(const PieceContext& context,
   };
   if (pieces.size() < 2 || !isRefused(pieces))
     return;
-  std::vector<Piece> one(1, std::move(whole));
+  std::vector<Piece> one(1, whole);
   finish(context, one);
   if (!isRefused(one))
     pieces = std::move(one);
@@ -210,20 +210,16 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& aske
   if (spannedDimensions(observed.points) < 3)
     return fit;
   ObjectFitOptions options = asked;
-  std::vector<Sheet> sheets;
-  if (!observed.hasCamera()) {
-    sheets =
-        sheetsOf(observed.points,
-                 std::max<Eigen::Index>(1, observed.points.cols() / NOISE_SAMPLES));
-    options.fit.vessel = options.fit.vessel && showsWalls(observed.points, sheets);
-  }
+  options.fit.vessel =
+      options.fit.vessel && (observed.hasCamera() || showsWalls(observed.points));
   double noise = options.fit.noise;
   const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : noiseOf(sheets);
+            : observed.point_noise ? *observed.point_noise
+                                   : noiseOf(sheetsOf(observed.points));
   PieceContext context{
       observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);

@@ -57,8 +57,8 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
     const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
     if (hueDistance(shade, middle) > UNEVEN)
       continue;
-    const auto cell =
-        std::size_t(c / view.width / CELL * columns_ + c % view.width / CELL);
+    const auto cell = std::size_t(c / view.width / CELL) * std::size_t(columns_) +
+                      std::size_t(c % view.width / CELL);
     cells_[cell] += shade;
     counts[cell] += 1.0F;
   }
@@ -67,7 +67,7 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
 }
 
 Eigen::Vector4f TableColor::near(int x, int y) const {
-  return cells_[std::size_t(y / CELL * columns_ + x / CELL)];
+  return cells_[std::size_t(y / CELL) * std::size_t(columns_) + std::size_t(x / CELL)];
 }
 
 Eigen::Vector4f TableColor::shadeAt(int x, int y) const {
@@ -86,7 +86,8 @@ std::vector<bool> TableColor::outlined(const LabelImage& labels) const {
   const int w = view_.width;
   for (int y = 1; y + 1 < view_.height && !cells_.empty(); ++y)
     for (int x = 1; x + 1 < w; ++x) {
-      const std::uint16_t* at = &labels.values[std::size_t(y * w + x)];
+      const std::uint16_t* at =
+          &labels.values[std::size_t(y) * std::size_t(w) + std::size_t(x)];
       if (*at == 0 || (at[-1] > 0 && at[1] > 0 && at[-w] > 0 && at[w] > 0))
         continue;
       ++edges[*at];
@@ -217,7 +218,7 @@ void TableColor::growFeet(LabelImage& labels) const {
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
       const int u = x + dx, v = y + dy;
       if (u < 0 || v < 0 || u >= w || v >= h ||
-          labels.values[std::size_t(v * w + u)] > 0)
+          labels.values[std::size_t(v) * std::size_t(w) + std::size_t(u)] > 0)
         continue;
       const int c = v * w + u;
       const int missing = view_.finite(c) ? 0 : step.missing + 1;

@@ -148,8 +148,6 @@ inline constexpr double SENSOR_ERROR = 7e-4;
 inline constexpr int MOST_IN_VIEW = 6;
 /// [parts] the same in a whole cloud; budget
 inline constexpr int MOST_ALL_ROUND = 16;
-/// [points] at which noise is measured; it is known to 7 %
-inline constexpr std::ptrdiff_t NOISE_SAMPLES = 200;
 /// [px] by which measurements lie beside their pixels: a matching window's nearer side,
 /// lateral noise; sensors
 inline constexpr double SIDEWAYS = 0.5;

@@ -41,7 +41,7 @@ SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
-  constexpr Eigen::Index COUNT = 8 * OCTANT;
+  constexpr Eigen::Index COUNT = Eigen::Index(8) * OCTANT;
   cells.middles.resize(3, COUNT);
   cells.areas.resize(COUNT);
   // Gauss's nodes are dense at the cube's edges, where small exponents bend the surface
