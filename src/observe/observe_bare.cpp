@@ -111,9 +111,8 @@ bool observeBare(Observation& o, std::string& why) {
   const bool one_sided = o.view.coverage == Coverage::ONE_SIDED;
   // the two sides of a pan's bottom look like one from above, but not from nearby
   if (!viewpoint && !one_sided) {
-    const std::vector<Sheet> sheets = sheetsOf(out.points);
-    out.point_noise = noiseOf(sheets);
-    if (haveTwoSides(sheets))
+    out.surface = surfaceOf(out.points);
+    if (out.surface->two_sided)
       return true;
   }
   std::optional<PointSpread> spread; // dear: only of points that may be one view

@@ -164,6 +164,15 @@ std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points) {
   return sheets;
 }
 
+double doubled(const std::vector<Sheet>& sheets) {
+  const auto count = std::count_if(
+      sheets.begin(), sheets.end(), [](const Sheet& s) { return s.other != 0.0; });
+  return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
+}
+
+namespace {
+
+/** \brief Noise of independent points, from the sheets that scatter least [m]. */
 double noiseOf(const std::vector<Sheet>& sheets) {
   std::vector<double> scatters;
   for (const Sheet& s : sheets)
@@ -176,24 +185,23 @@ double noiseOf(const std::vector<Sheet>& sheets) {
   return *at / OF_SMOOTH;
 }
 
-double doubled(const std::vector<Sheet>& sheets) {
-  const auto count = std::count_if(
-      sheets.begin(), sheets.end(), [](const Sheet& s) { return s.other != 0.0; });
-  return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
-}
-
-bool haveTwoSides(const std::vector<Sheet>& sheets) {
-  return doubled(sheets) > TWO_SIDES;
-}
-
-bool showsWalls(const Eigen::Matrix3Xd& points) {
+/** \brief Whether both sides of walls show, as solids do not. Where points are dense,
+ * fewer are looked at: all neighbours would be on one side. */
+bool showWalls(const Eigen::Matrix3Xd& points, const std::vector<Sheet>& sheets) {
   const Eigen::Index step = 1 + (points.cols() - 1) / WALL_POINTS;
-  if (step == 1)
-    return haveTwoSides(sheetsOf(points));
+  if (step <= 1)
+    return doubled(sheets) > TWO_SIDES;
   Eigen::Matrix3Xd some(3, points.cols() / step);
   for (Eigen::Index i = 0; i < some.cols(); ++i)
     some.col(i) = points.col(i * step);
-  return haveTwoSides(sheetsOf(some));
+  return doubled(sheetsOf(some)) > TWO_SIDES;
+}
+
+} // namespace
+
+ObservedObject::Surface surfaceOf(const Eigen::Matrix3Xd& points) {
+  const std::vector<Sheet> sheets = sheetsOf(points);
+  return {noiseOf(sheets), showWalls(points, sheets)};
 }
 
 } // namespace pcl_sq::detail

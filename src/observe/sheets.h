@@ -3,7 +3,7 @@
 // thin wall's other side is near.
 #pragma once
 
-#include <Eigen/Core>
+#include "pcl_sq/object_view.h"
 
 #include <vector>
 
@@ -23,17 +23,11 @@ struct Sheet {
 /** \brief The sheets about some of the points. */
 std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points);
 
-/** \brief Noise of independent points, from the sheets that scatter least [m]. */
-double noiseOf(const std::vector<Sheet>& sheets);
-
 /** \brief Share of the sheets that have another one beyond them. */
 double doubled(const std::vector<Sheet>& sheets);
 
-/** \brief Whether they are both sides of thin walls, as no single view shows. */
-bool haveTwoSides(const std::vector<Sheet>& sheets);
-
-/** \brief Whether a whole cloud shows both sides of walls, as solids do not. Where it
- * is dense fewer points are looked at: all neighbours would be on one side. */
-bool showsWalls(const Eigen::Matrix3Xd& points);
+/** \brief The noise of bare points, and whether they are of both sides of thin walls,
+ * as no single view and no solid shows. */
+ObservedObject::Surface surfaceOf(const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

@@ -13,13 +13,15 @@ namespace {
 
 constexpr int CELL = 40;           ///< pixels of the coarse grid: light changes slowly
 constexpr float SAME_COLOR = 1.0F; ///< steps of shadeOf()
-constexpr float UNEVEN = 2.0F;     ///< the same, between places of one table
-constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels
-constexpr float CLEARLY = 0.5F;    ///< of the distance to the table: the thing's own
-constexpr double OUTLINED = 0.7;   ///< of the outline, that is an edge of the colour
-constexpr double HIGHEST = 2.0;    ///< standing heights about the table
-constexpr int HALO = 8;    ///< pixels: as far as windows and interpolation reach
-constexpr int MISSING = 4; ///< pixels without depth that are bridged
+constexpr float UNEVEN = 2.0F;     ///< steps of shadeOf(), between places of one table
+constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels, at least
+constexpr float OVER_MEDIAN =
+    2.2F;                        ///< 99 in 100 of a Gaussian in space, over the median
+constexpr float CLEARLY = 0.5F;  ///< of the distance to the table: the thing's own
+constexpr double OUTLINED = 0.7; ///< of the outline, that is an edge of the colour
+constexpr double HIGHEST = 2.0;  ///< standing heights about the table
+constexpr int HALO = 8;          ///< pixels: as far as windows and interpolation reach
+constexpr int MISSING = 4;       ///< pixels without depth that are bridged
 
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
@@ -64,6 +66,15 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
   }
   for (std::size_t k = 0; k < cells_.size(); ++k)
     cells_[k] /= counts[k];
+  // a saturated colour scatters, and is the table's all the same
+  values.clear();
+  for (std::size_t i = 0; i < level.size(); i += 7) {
+    const int x = level[i] % view.width, y = level[i] / view.width;
+    values.push_back(hueDistance(shadeAt(x, y), near(x, y)));
+  }
+  const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  like_ = std::max(LIKE_TABLE, OVER_MEDIAN * *half);
 }
 
 Eigen::Vector4f TableColor::near(int x, int y) const {
@@ -225,7 +236,7 @@ void TableColor::growFeet(LabelImage& labels) const {
       const bool level = missing > 0 ? missing <= MISSING : isLow(c);
       const Eigen::Vector4f shade = shadeAt(u, v);
       const float from_table = hueDistance(shade, near(u, v));
-      if (!level || from_table < LIKE_TABLE ||
+      if (!level || from_table < like_ ||
           hueDistance(shade, step.shade) > CLEARLY * from_table ||
           isFootOfOther(labels, u, v))
         continue;

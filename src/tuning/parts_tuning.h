@@ -168,6 +168,25 @@ inline constexpr int MARGIN = 2;
 inline constexpr double INSET = 0.2;
 } // namespace outline_gaps
 
+namespace stalk {
+/// [-2 ln] odds of 10 to 1 against one: one place is looked at, the likeliest, not many
+/// cuts; odds
+inline constexpr double ODDS = 4.6;
+/// [parameters] of a rod: two ends in the image, depth, slope, radius; geometry
+inline constexpr int PARAMETERS = 7;
+/// [points] that tell how far away it is by their median
+inline constexpr std::size_t FEWEST = 8;
+/// [1] length over width of what is a stump, whose longer axis says nothing; chosen
+inline constexpr double STUMP = 1.5;
+/// [1] tangent of the angle by which it leaves the body askew, a deviation; household
+/// things
+inline constexpr double ASKEW = 0.5;
+/// [1] largest tangent of its slope to the image: 60 degrees; steeper it hides itself
+inline constexpr double STEEPEST = 1.7;
+/// [1] exponent of its rounded ends; that of the paper's boxes
+inline constexpr double ROUNDED = 0.2;
+} // namespace stalk
+
 namespace split_view {
 /// [1] cost per observation of a part that needs no cut; chosen; the noise's share is 1
 inline constexpr double GOOD_FIT = 1.6;

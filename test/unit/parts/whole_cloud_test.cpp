@@ -290,15 +290,18 @@ TEST(WholeCloud, ADishFromAllRoundIsOneOpenVesselInEverySampling) {
 }
 
 TEST(WholeCloud, WallsShowInDenseCloudsToo) {
-  EXPECT_TRUE(detail::showsWalls(dish(5000, 0.004, 1)));
-  EXPECT_TRUE(detail::showsWalls(dish(60000, 0.004, 1)));
-  EXPECT_FALSE(detail::showsWalls(dish(5000, 0.0, 1)));
-  EXPECT_FALSE(detail::showsWalls(dish(60000, 0.0, 1)));
+  const auto shows = [](const Eigen::Matrix3Xd& points) {
+    return detail::surfaceOf(points).two_sided;
+  };
+  EXPECT_TRUE(shows(dish(5000, 0.004, 1)));
+  EXPECT_TRUE(shows(dish(60000, 0.004, 1)));
+  EXPECT_FALSE(shows(dish(5000, 0.0, 1)));
+  EXPECT_FALSE(shows(dish(60000, 0.0, 1)));
 }
 
 TEST(Coverage, APanFromAllRoundIsNoViewUnlessTheUserSaysSo) {
   const Eigen::Matrix3Xd points = pan();
-  EXPECT_TRUE(detail::haveTwoSides(detail::sheetsOf(points)));
+  EXPECT_TRUE(detail::surfaceOf(points).two_sided);
   EXPECT_FALSE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_TRUE(observe(points, Coverage::ONE_SIDED).hasCamera());
 }
@@ -312,7 +315,7 @@ TEST(Coverage, HalfABallIsAViewUnlessTheUserSaysItIsComplete) {
     p.z() = std::abs(p.z());
     points.col(i) = (0.1 + 0.001 * random.normal()) * p;
   }
-  EXPECT_FALSE(detail::haveTwoSides(detail::sheetsOf(points)));
+  EXPECT_FALSE(detail::surfaceOf(points).two_sided);
   EXPECT_TRUE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_FALSE(observe(points, Coverage::COMPLETE).hasCamera());
 }
