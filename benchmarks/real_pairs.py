@@ -52,6 +52,15 @@ def surface(part, steps=120):
     kx, ky = part.get("taper", (0, 0))
     p[:, 0] *= kx * p[:, 2] / a[2] + 1
     p[:, 1] *= ky * p[:, 2] / a[2] + 1
+    if "bend" in part:  # z on a circle of this curvature, towards x turned by this angle
+        curvature, angle = part["bend"]
+        c, s = np.cos(angle), np.sin(angle)
+        along, across = p[:, 0] * c + p[:, 1] * s, p[:, 1] * c - p[:, 0] * s
+        rest = 1 / curvature - along
+        turn = p[:, 2] * curvature
+        along = 1 / curvature - rest * np.cos(turn)
+        p = np.stack([along * c - across * s, along * s + across * c,
+                      rest * np.sin(turn)], -1)
     return p @ np.array(part["rotation"]).T + np.array(part["translation"])
 
 

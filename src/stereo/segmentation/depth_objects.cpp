@@ -170,6 +170,7 @@ bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why) {
 bool depthOddsInBox(const ColorCloud& cloud,
                     const cv::Rect& box,
                     const cv::Rect& window,
+                    double disparity_scale,
                     cv::Mat& odds) {
   constexpr double MOST = 3.0;   // of ln odds: of twenty such pixels one is another's
   constexpr double RIM = 6.0;    // a matched window fattens outlines by so much [px]
@@ -216,7 +217,8 @@ bool depthOddsInBox(const ColorCloud& cloud,
         std::abs(middle_depths[k] - middle_depths[main]) < reach)
       object |= patches == static_cast<int>(k);
   const cv::Mat background =
-      ((patches > 0) | behind(grid, planes, tolerance)) & ~object;
+      (((patches > 0) | behind(grid, planes, tolerance)) & ~object) |
+      grid.hiddenToTheLeft(object, disparity_scale);
   const cv::Mat told =
       grid.toPixels(oddsOfDepths(grid, object, cells, tolerance, MOST));
   const cv::Mat mine = grid.toPixels(object);

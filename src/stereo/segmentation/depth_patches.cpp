@@ -97,6 +97,25 @@ std::vector<float> DepthGrid::medianDepths(const cv::Mat& labels, int count) con
   return medians;
 }
 
+cv::Mat DepthGrid::hiddenToTheLeft(const cv::Mat& object, double scale) const {
+  cv::Mat hidden = cv::Mat::zeros(height, width, CV_8U);
+  for (int v = 0; v < height; ++v)
+    for (int u = 1; u < width; ++u) {
+      if (object.at<std::uint8_t>(v, u) == 0 || std::isfinite(at(u - 1, v).z))
+        continue;
+      int left = u - 1;
+      while (left >= 0 && !std::isfinite(at(left, v).z))
+        --left;
+      if (left < 0)
+        continue;
+      const double reach =
+          scale * (1.0 / double(at(u, v).z) - 1.0 / double(at(left, v).z)) / step;
+      const int first = std::max(left + 1, u - static_cast<int>(std::max(0.0, reach)));
+      hidden(cv::Range(v, v + 1), cv::Range(first, u)).setTo(255);
+    }
+  return hidden;
+}
+
 float DepthGrid::angle() const {
   const auto row = [this](pcl::index_t i) { return i / width; };
   const pcl::index_t first = finite.front(), last = finite.back();

@@ -35,6 +35,10 @@ struct DepthGrid {
    * thing stands on another or leans on it. */
   bool isFold(int u, int v) const { return folds_.at<float>(v, u) > least_fold_; }
   float angle() const; ///< between the rays of neighbouring cells [rad]
+  /** \brief Cells without a point to the left of a thing that it hides from the right
+   * camera: as far as the disparities differ from those beyond.
+   * \param[in] object CV_8U \param[in] scale disparity times depth [px m] */
+  cv::Mat hiddenToTheLeft(const cv::Mat& object, double scale) const;
   /** \brief A mask of cells as one of the window's pixels. */
   cv::Mat toPixels(const cv::Mat& cells) const;
 

@@ -62,7 +62,9 @@ bool SegmenterOptions::isValid(std::string* why) const {
          require(min_share >= 0.0 && min_share < 1.0, "min_share must lie in [0, 1)") &&
          require(margin >= 0.05 && margin <= 2.0, "margin must lie in [0.05, 2]") &&
          require(color_radius >= 1.0 && color_radius <= 100.0,
-                 "color_radius must lie in [1, 100]");
+                 "color_radius must lie in [1, 100]") &&
+         require(disparity_scale >= 0.0 && std::isfinite(disparity_scale),
+                 "disparity_scale must not be negative");
 }
 
 void ObjectSegmenter::setOptions(const SegmenterOptions& options) {
@@ -137,7 +139,7 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
     cutInBox(bgr, inside, window, options_.iterations).copyTo(mask(window));
   mask = largestComponents(mask);
   if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
-      depthOddsInBox(cloud, inside, window, depth_odds)) {
+      depthOddsInBox(cloud, inside, window, options_.disparity_scale, depth_odds)) {
     const cv::Rect inner = inside - window.tl();
     const double right = std::min(agreement(mask(window), inner, depth_odds),
                                   separability(bgr(window), mask(window)));
