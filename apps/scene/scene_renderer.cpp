@@ -197,7 +197,8 @@ RenderedTruth renderTruth(const Scene& scene,
   RenderedTruth truth;
   truth.width = camera.width;
   truth.height = camera.height;
-  const auto count = static_cast<std::size_t>(camera.width * camera.height);
+  const auto count =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   truth.depth.resize(count);
   truth.mask.resize(count);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))

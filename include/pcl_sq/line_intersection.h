@@ -26,6 +26,12 @@ struct LineInterval {
                                                 const Eigen::Vector3d& direction,
                                                 LineInterval& interval);
 
+/** \brief Whether a line from its origin on meets the body of intersectLine(): cheaper
+ * than where. */
+[[nodiscard]] PCL_SQ_EXPORTS bool meetsRay(const Superquadric& superquadric,
+                                           const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction);
+
 /** \brief Where a line from its origin on first meets the material of a superquadric:
  * through the opening of a hollow body its inside or floor.
  * \param[out] at in lengths of the direction, not negative; untouched on a miss

@@ -93,7 +93,13 @@ struct PCL_SQ_EXPORTS ObservedObject {
   double outline_offset = 0.0;    ///< expected dilation [px]
   std::optional<TableModel> table;
   double effective_points = 0.0; ///< independent ones among the points
-  double depth = 1.0;            ///< of the object [m]
+  /** \brief What bare points tell of the surface they lie on. */
+  struct Surface {
+    double noise = 0.0;     ///< of independent points [m]
+    bool two_sided = false; ///< whether both sides of thin walls show
+  };
+  std::optional<Surface> surface; ///< where their sides were looked at
+  double depth = 1.0;             ///< of the object [m]
   /** \brief Points nearer to the table than this may be missing: they cannot be told
    * from the table's own [m]. */
   double foot = 0.0;

@@ -68,6 +68,10 @@ BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
   return e;
 }
 
+double BentProblem::maxEpsilon() const {
+  return std::min(MAX_EPSILON, limits_.max_epsilon);
+}
+
 Superquadric
 BentProblem::moved(const Superquadric& m, const Vector& step, bool& limited) const {
   Vector s = step;
@@ -82,7 +86,7 @@ BentProblem::moved(const Superquadric& m, const Vector& step, bool& limited) con
   for (int k = 0; k < 3; ++k)
     next.semi_axes[k] = std::clamp(
         m.semi_axes[k] * std::exp(s[6 + k]), limits_.min_axis, limits_.max_axis);
-  next.epsilon1 = std::clamp(m.epsilon1 + s[9], limits_.min_epsilon, MAX_EPSILON);
+  next.epsilon1 = std::clamp(m.epsilon1 + s[9], limits_.min_epsilon, maxEpsilon());
   const double most = mostBent(next);
   next.bend = std::clamp(m.bend + s[10], -most, most);
   if (std::abs(next.bend) < SLIGHTEST)
@@ -95,7 +99,7 @@ bool BentProblem::isActiveBound(const Superquadric& m, const Vector& direction) 
     if (leaves(m.semi_axes[k], limits_.min_axis, limits_.max_axis, direction[6 + k]))
       return true;
   const double most = mostBent(m);
-  return leaves(m.epsilon1, limits_.min_epsilon, MAX_EPSILON, direction[9]) ||
+  return leaves(m.epsilon1, limits_.min_epsilon, maxEpsilon(), direction[9]) ||
          leaves(m.bend, -most, most, direction[10]);
 }
 

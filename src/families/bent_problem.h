@@ -31,6 +31,9 @@ public:
   double unit() const { return planes_.unit; }
 
 private:
+  /** \brief Largest exponent of the ends. */
+  double maxEpsilon() const;
+
   const UnitPoints& points_;
   LmOptions limits_;
   PlaneCost planes_;

@@ -20,10 +20,11 @@ std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
                                        double sigma,
                                        const std::vector<ShapeCandidate>& candidates);
 
-/** \brief Last iterations of a tapered body with all points. */
-void fitTaperAllPoints(const ViewProblem& problem,
-                       double sigma,
-                       ShapeCandidate& chosen);
+/** \brief Last iterations of a tapered body with other points of the problem. */
+void fitTaperAgain(const ViewProblem& problem,
+                   const UnitPoints& points,
+                   double sigma,
+                   ShapeCandidate& chosen);
 
 /** \brief The upright solid of revolution with a lid below its rim, if that explains
  * the points better than all candidates. */
@@ -40,8 +41,11 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
                                       const std::vector<ShapeCandidate>& candidates,
                                       double profile = 0.0);
 
-/** \brief Last iterations of a bent rod with all points. */
-void fitBentAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);
+/** \brief Last iterations of a bent rod with other points of the problem. */
+void fitBentAgain(const ViewProblem& problem,
+                  const UnitPoints& points,
+                  double sigma,
+                  ShapeCandidate& chosen);
 
 /** \brief The best open vessel, if no solid is near the points or the best one hides
  * some of them. \param[in,out] candidates all solids; those pay for what they hide */
@@ -49,9 +53,10 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
                                         double sigma,
                                         std::vector<ShapeCandidate>& candidates);
 
-/** \brief Last iterations of a vessel with all points. */
-void fitVesselAllPoints(const ViewProblem& problem,
-                        double sigma,
-                        ShapeCandidate& chosen);
+/** \brief Last iterations of a vessel with other points of the problem. */
+void fitVesselAgain(const ViewProblem& problem,
+                    const UnitPoints& points,
+                    double sigma,
+                    ShapeCandidate& chosen);
 
 } // namespace pcl_sq::detail

@@ -3,6 +3,8 @@
 // steps within a trust region, bounds, held directions.
 #pragma once
 
+#include "geometry/taper.h"
+#include "tuning/view_tuning.h"
 #include "view_problem/view_problem.h"
 
 #include <algorithm>
@@ -44,6 +46,18 @@ void addPoint(const RobustCost& density,
   e.weighted += share * square;
   e.jtj.template selfadjointView<Eigen::Lower>().rankUpdate(row, share * precision);
   e.jtr += share * precision * distance * row;
+}
+
+/** \brief Cost of the points alone, in units of sigma^2. */
+inline double
+pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  const RobustCost density{sigma, tuning::shared::OUTLIER};
+  double cost = 0.0, share;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    cost += density.cost(double(distances[i]) * double(distances[i]), share);
+  return cost / (sigma * sigma);
 }
 
 /** \brief Parameters that belong together, and the largest step of any of them. */

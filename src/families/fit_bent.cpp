@@ -76,17 +76,6 @@ std::vector<Superquadric> straightStarts(const Superquadric& body) {
   return starts;
 }
 
-/** \brief Cost of the points alone, in units of sigma^2. */
-double pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {
-  std::vector<float> distances(points.size() + kernels::BLOCK);
-  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  const RobustCost density{sigma, OUTLIER};
-  double cost = 0.0, share;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    cost += density.cost(double(distances[i]) * double(distances[i]), share);
-  return cost / (sigma * sigma);
-}
-
 /** \brief A bent sheet is none. */
 bool isRod(const Superquadric& s) {
   return s.semi_axes.z() > SLENDER * s.semi_axes.head<2>().maxCoeff();
@@ -213,12 +202,13 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   return chosen;
 }
 
-void fitBentAllPoints(const ViewProblem& problem,
-                      double sigma,
-                      ShapeCandidate& chosen) {
+void fitBentAgain(const ViewProblem& problem,
+                  const UnitPoints& points,
+                  double sigma,
+                  ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod = fitRod(BentProblem(problem, problem.all(), sigma),
+  const Rod rod = fitRod(BentProblem(problem, points, sigma),
                          start,
                          problem.eye() ? ITERATIONS : ALL_ROUND_ITERATIONS);
   if (!(rod.cost < 1e299))

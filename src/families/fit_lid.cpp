@@ -34,7 +34,7 @@ Lid lidOf(const UnitPoints& points, const Superquadric& body, double sigma) {
     lid.points.push_back(i);
     depths.push_back(a3 - q.z());
   }
-  if (double(depths.size()) < LEAST * double(points.size())) {
+  if (depths.size() < LEAST) {
     lid.points.clear();
     return lid;
   }
@@ -44,21 +44,29 @@ Lid lidOf(const UnitPoints& points, const Superquadric& body, double sigma) {
   return lid;
 }
 
-/** \brief The points with those of the lid lifted to the rim. */
-UnitPoints lifted(const UnitPoints& points, const Lid& lid, const Eigen::Vector3d& up) {
+/** \brief The points with those of the lid lifted to the rim; without them where there
+ * is no depth of the lid yet. */
+UnitPoints lifted(const UnitPoints& points,
+                  const Lid& lid,
+                  const std::optional<Eigen::Vector3d>& lift) {
   const kernels::Points all = points.view();
   std::vector<bool> on_lid(points.size(), false);
   for (const std::size_t i : lid.points)
     on_lid[i] = true;
   UnitPoints result;
   result.reserve(points.size());
-  const Eigen::Vector3f lift = (lid.depth * up).cast<float>();
+  std::vector<float> precision;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f p = on_lid[i] ? points[i] + lift : points[i];
+    if (on_lid[i] && !lift)
+      continue;
+    const Eigen::Vector3f p =
+        on_lid[i] ? Eigen::Vector3f(points[i] + lift->cast<float>()) : points[i];
     result.add(p.x(), p.y(), p.z());
+    if (all.precision)
+      precision.push_back(all.precision[i]);
   }
   if (all.precision)
-    result.setPrecision({all.precision, all.precision + points.size()});
+    result.setPrecision(std::move(precision));
   return result;
 }
 
@@ -90,8 +98,13 @@ std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
     lid = lidOf(problem.medium(), t.model, sigma);
     if (lid.points.empty())
       return std::nullopt;
+    // the body that they belong to ends at the lid; without them the rim's outline and
+    // the wall tell where it ends
+    std::optional<Eigen::Vector3d> lift;
+    if (i > 0)
+      lift = lid.depth * problem.up();
     t = problem.minimise(t,
-                         lifted(problem.medium(), lid, problem.up()),
+                         lifted(problem.medium(), lid, lift),
                          kernels::Residual::FOOT_POINT,
                          ITERATIONS,
                          space);

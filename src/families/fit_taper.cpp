@@ -224,11 +224,12 @@ std::optional<ShapeCandidate> fitTaper(const ViewProblem& problem,
   return found;
 }
 
-void fitTaperAllPoints(const ViewProblem& problem,
-                       double sigma,
-                       ShapeCandidate& chosen) {
+void fitTaperAgain(const ViewProblem& problem,
+                   const UnitPoints& points,
+                   double sigma,
+                   ShapeCandidate& chosen) {
   const ShapeCandidate fitted =
-      TaperedFamily(problem, problem.all(), sigma).fit(taperStart(problem, chosen, 2));
+      TaperedFamily(problem, points, sigma).fit(taperStart(problem, chosen, 2));
   chosen.bic += fitted.cost - chosen.cost; // which may be scaled by the misfit
   chosen.cost = fitted.cost;
   chosen.model = fitted.model;

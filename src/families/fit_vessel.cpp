@@ -139,15 +139,16 @@ double nearShare(const UnitPoints& points, double reach, const Superquadric& bod
   return near / double(points.size());
 }
 
-/** \brief Share of the points inside of a body, by more than noise. */
-double deepShare(const UnitPoints& points, double sigma, const Superquadric& body) {
+/** \brief Share of the points that lie off a body by more than half the thinnest wall
+ * that noise leaves: it goes between the wall's two sides, or along one of them. */
+double offShare(const UnitPoints& points, double sigma, const Superquadric& body) {
   std::vector<float> distances(points.size() + kernels::BLOCK);
   residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  const auto deep =
-      std::count_if(distances.begin(),
-                    distances.begin() + std::ptrdiff_t(points.size()),
-                    [&](float d) { return double(d) < -RESOLVED * sigma; });
-  return double(deep) / double(points.size());
+  const auto off = std::count_if(
+      distances.begin(),
+      distances.begin() + std::ptrdiff_t(points.size()),
+      [&](float d) { return std::abs(double(d)) > 0.5 * RESOLVED * sigma; });
+  return double(off) / double(points.size());
 }
 
 /** \brief A vessel beside a solid where nobody knows the noise: that of points on both
@@ -172,11 +173,13 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
       nearShare(points, STANDS_OFF * std::max(own, MODEL_ERROR), vessel.model) <
           EXPLAINED)
     return std::nullopt;
-  // a solid between the two sides of a wall is off the points by as much
+  // a solid between the two sides of a wall is off the points by as much; its cost
+  // about that is one an observation
   const double gain =
       2.0 * problem.observations() *
-      std::log(scatterOf(points, std::max(sigma, vessel.model.wall), solid.model) /
-               scatterOf(points, own, vessel.model));
+          std::log(scatterOf(points, std::max(sigma, vessel.model.wall), solid.model) /
+                   own) +
+      problem.observations() - vessel.cost;
   ShapeCandidate c = candidateOf(vessel, problem);
   c.bic += solid.cost - gain - c.cost;
   c.cost = std::min(problem.observations(), solid.cost);
@@ -226,7 +229,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     return std::nullopt;
   if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
-  if (!problem.eye() && deepShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
+  if (!problem.eye() && offShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
     return std::nullopt;
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
@@ -246,26 +249,27 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   for (Vessel& v : found)
     v = rough.fit(v, SEARCH_ITERATIONS);
   std::sort(found.begin(), found.end(), cheaper);
-  if (problem.eye()) // from all round only the noise that each leaves tells them apart
-    found.resize(std::min(found.size(), KEPT));
   const VesselFamily thorough(problem, problem.medium(), sigma);
-  for (Vessel& v : found)
-    v = thorough.fit(v, ITERATIONS);
-  if (!problem.eye()) {
-    // the one that explains most points: noise may be small about few of them
+  if (!problem.eye()) { // only the noise that each leaves tells them apart
+    const double wide = std::max(WIDE, 2.0 * problem.noise());
+    const auto cost = [&](const Superquadric& body) {
+      return pointsCost(problem.coarse(), wide, body);
+    };
+    // by one more for each point: a thin wall makes no difference yet
+    const double most = cost(best->model) + double(problem.coarse().size());
     std::optional<ShapeCandidate> chosen;
-    double most = 0.0;
     for (const Vessel& v : found)
-      if (const auto c = fromAllRound(problem, sigma, v, *best)) {
-        const double near =
-            nearShare(problem.medium(), STANDS_OFF * MODEL_ERROR, c->model);
-        if (near > most) {
-          most = near;
+      if (!(cost(v.model) < most))
+        continue; // a solid is nearer to the points
+      else if (const auto c =
+                   fromAllRound(problem, sigma, thorough.fit(v, ITERATIONS), *best))
+        if (!chosen || c->bic < chosen->bic)
           chosen = c;
-        }
-      }
     return chosen;
   }
+  found.resize(std::min(found.size(), KEPT));
+  for (Vessel& v : found)
+    v = thorough.fit(v, ITERATIONS);
   const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
   if (!(vessel.cost < 1e299))
     return std::nullopt;
@@ -275,12 +279,13 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   return c;
 }
 
-void fitVesselAllPoints(const ViewProblem& problem,
-                        double sigma,
-                        ShapeCandidate& chosen) {
+void fitVesselAgain(const ViewProblem& problem,
+                    const UnitPoints& points,
+                    double sigma,
+                    ShapeCandidate& chosen) {
   if (!problem.eye())
-    sigma = std::min(sigma, scatterOf(problem.all(), sigma, chosen.model));
-  const Vessel fitted = VesselFamily(problem, problem.all(), sigma)
+    sigma = std::min(sigma, scatterOf(points, sigma, chosen.model));
+  const Vessel fitted = VesselFamily(problem, points, sigma)
                             .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
   chosen.bic += fitted.cost - chosen.cost;
   chosen.cost = fitted.cost;

@@ -15,6 +15,31 @@ double latitudeOf(const Superquadric& s, double height) {
   return std::copysign(std::asin(sine), height);
 }
 
+Superquadric withRimNearTop(const Superquadric& s) {
+  constexpr double SHARP = 0.1, SAME = 0.002;
+  if (!s.isCut() || s.isBent() || s.epsilon1 > SHARP)
+    return s;
+  // the height at which the section is narrower by SAME
+  const double top =
+      std::pow(1.0 - std::pow(1.0 - SAME, 2.0 / s.epsilon1), 0.5 * s.epsilon1);
+  if (s.rim >= top)
+    return s;
+  // bottom, rim and walls stay where they are
+  Superquadric same = s;
+  const double longer = (1.0 + s.rim) / (1.0 + top);
+  same.rim = top;
+  same.semi_axes.z() *= longer;
+  same.center += (same.semi_axes.z() - s.semi_axes.z()) * s.rotation.col(2);
+  const auto widen = [longer](double& a, double& k) {
+    const double slope = a * k * longer;
+    a = a * (1.0 - k) + slope;
+    k = slope / a;
+  };
+  widen(same.semi_axes.x(), same.kx);
+  widen(same.semi_axes.y(), same.ky);
+  return same;
+}
+
 void forEachSection(
     const Superquadric& s,
     double low,

@@ -22,6 +22,12 @@ Section sectionAt(const Superquadric& s, double height, double inset = 0.0);
 /** \brief Latitude eta of a height over a3: height = sin^e1(eta). */
 double latitudeOf(const Superquadric& s, double height);
 
+/** \brief A body of sharp edges and straight walls, cut anywhere, as one that is cut
+ * near its top; others as they are. The two differ by less than their walls bend there,
+ * a five-hundredth of the radius. Who walks over the surface at equal angles meets few
+ * heights of such a body but those near its top. */
+PCL_SQ_EXPORTS Superquadric withRimNearTop(const Superquadric& s);
+
 /** \brief Height of the hollow's floor over a3. */
 inline double floorHeight(const Superquadric& s) {
   return s.wall / s.semi_axes.z() - 1.0;

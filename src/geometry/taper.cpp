@@ -105,7 +105,7 @@ PCL_SQ_EXPORTS Eigen::Vector3d deformed(const Superquadric& s, // pictures need 
 PCL_SQ_EXPORTS Eigen::Vector3d deformedAreaVector(const Superquadric& s,
                                                   const Eigen::Vector3d& straight,
                                                   const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d upright = taperedAreaVector(s, straight, normal);
+  Eigen::Vector3d upright = taperedAreaVector(s, straight, normal);
   if (!s.isBent())
     return upright;
   // cofactors of the bend's derivative: a turn, and fibres that grow

@@ -53,7 +53,9 @@ Primitive closestPrimitive(const Superquadric& part) {
   const int across = part.isBent() ? 2 * CELLS : CELLS;
   const int layers = part.isPlain() ? CELLS : 2 * CELLS;
   for (int i = 0; i < across * across * layers; ++i) {
-    const Eigen::Vector3d cell(i % across, i / across % across, i / across / across);
+    const Eigen::Vector3d cell =
+        Eigen::Vector3i(i % across, i / across % across, i / across / across)
+            .cast<double>();
     Eigen::Vector3d p = ((cell.array() + 0.5) / CELLS).matrix().cwiseProduct(reach);
     for (int k = 0; k < 3; ++k)
       if (p[k] > reach[k])

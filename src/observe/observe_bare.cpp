@@ -6,15 +6,13 @@
 #include "observe/sheets.h"
 #include "sensor/camera_pose.h"
 #include "sensor/depth_patch.h"
+#include "sensor/local_quadric.h"
 #include "tuning/observe_tuning.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <numeric>
 
 namespace pcl_sq::detail {
 
@@ -45,67 +43,25 @@ void shuffle(const Observation& o, std::vector<int>& columns) {
     columns[i] = order[i].second;
 }
 
-/** \brief Distance of each point to its NEIGHBOUR-th nearest one. */
-std::vector<float> neighbourDistances(const std::vector<Eigen::Vector3f>& points) {
-  const std::size_t n = points.size();
-  Eigen::Vector3f low = points[0], high = points[0];
-  for (const Eigen::Vector3f& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  // in order along the longest side, only points nearby in it need a look
-  int axis;
-  (high - low).maxCoeff(&axis);
-  std::vector<std::pair<float, std::size_t>> order(n);
-  for (std::size_t i = 0; i < n; ++i)
-    order[i] = {points[i][axis], i};
-  std::sort(order.begin(), order.end());
-  Eigen::Matrix3Xf sorted(3, Eigen::Index(n));
-  for (std::size_t i = 0; i < n; ++i)
-    sorted.col(Eigen::Index(i)) = points[order[i].second];
-  std::vector<float> distance(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector3f p = sorted.col(Eigen::Index(i));
-    std::array<float, NEIGHBOUR> nearest; // ascending squares
-    nearest.fill(std::numeric_limits<float>::max());
-    const auto look = [&](std::size_t k) {
-      const Eigen::Vector3f d = sorted.col(Eigen::Index(k)) - p;
-      if (d[axis] * d[axis] > nearest.back())
-        return false;
-      const float square = d.squaredNorm();
-      if (square < nearest.back()) {
-        const auto place = std::upper_bound(nearest.begin(), nearest.end(), square);
-        std::copy_backward(place, nearest.end() - 1, nearest.end());
-        *place = square;
-      }
-      return true;
-    };
-    for (std::size_t k = i; k > 0 && look(k - 1); --k) {
-    }
-    for (std::size_t k = i + 1; k < n && look(k); ++k) {
-    }
-    distance[order[i].second] = std::sqrt(nearest.back());
-  }
-  return distance;
-}
-
 /** \brief Takes out the points whose neighbours are far: a single one beyond the rim
  * would spoil the outline. */
 void dropLonely(const Observation& o, std::vector<int>& columns) {
   const std::size_t n = columns.size();
   if (n < 10 * NEIGHBOUR)
     return;
-  std::vector<Eigen::Vector3f> points(n);
+  Eigen::Matrix3Xd points(3, Eigen::Index(n));
   for (std::size_t i = 0; i < n; ++i)
-    points[i] = o.points.col(columns[i]);
-  const std::vector<float> distance = neighbourDistances(points);
-  std::vector<float> sorted = distance;
-  std::nth_element(
-      sorted.begin(), sorted.begin() + std::ptrdiff_t(n / 2), sorted.end());
-  const double limit = LONELY * double(sorted[n / 2]);
+    points.col(Eigen::Index(i)) = o.at(columns[i]);
+  Neighbourhood neighbourhood(points);
+  std::vector<double> distance(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    neighbourhood.of(Eigen::Index(i), 1 + NEIGHBOUR); // itself is one
+    distance[i] = neighbourhood.reach();
+  }
+  const double limit = LONELY * median(distance);
   std::vector<int> kept;
   for (std::size_t i = 0; i < n; ++i)
-    if (double(distance[i]) <= limit)
+    if (distance[i] <= limit)
       kept.push_back(columns[i]);
   columns.swap(kept);
 }
@@ -154,13 +110,19 @@ bool observeBare(Observation& o, std::string& why) {
   };
   const bool one_sided = o.view.coverage == Coverage::ONE_SIDED;
   // the two sides of a pan's bottom look like one from above, but not from nearby
-  if (!viewpoint && !one_sided && hasTwoSides(out.points))
-    return true;
-  std::optional<PointSpread> spread;
-  if (!viewpoint)
-    spread.emplace(out.points);
+  if (!viewpoint && !one_sided) {
+    out.surface = surfaceOf(out.points);
+    if (out.surface->two_sided)
+      return true;
+  }
+  std::optional<PointSpread> spread; // dear: only of points that may be one view
+  const auto spreadOfPoints = [&]() -> const PointSpread& {
+    if (!spread)
+      spread.emplace(out.points);
+    return *spread;
+  };
   if (!viewpoint && above_table(Eigen::Vector3d::Zero()) && isCameraFrame(out.points) &&
-      spread->allows(Eigen::Vector3d::Zero())) {
+      spreadOfPoints().allows(Eigen::Vector3d::Zero())) {
     viewpoint = Eigen::Vector3d::Zero();
     out.notes.push_back("no viewpoint is given; the points lie before the origin "
                         "and each ray from there meets them once: it is taken as the "
@@ -168,7 +130,8 @@ bool observeBare(Observation& o, std::string& why) {
   }
   out.viewpoint_known = bool(viewpoint);
   if (!viewpoint) {
-    viewpoint = guessViewpoint(out.points, one_sided, spread->direction());
+    viewpoint = guessViewpoint(
+        out.points, one_sided, [&] { return spreadOfPoints().direction(); });
     if (viewpoint && !above_table(*viewpoint))
       viewpoint.reset();
   }

@@ -75,14 +75,20 @@ void findFoot(Observation& o, const CellRect& box, int rim) {
     }
     return false;
   };
+  const auto seenAlong = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& way) {
+    for (int k = 1; k <= STEPS; ++k)
+      if (seenThrough(from + way * k / STEPS))
+        return true;
+    return false;
+  };
+  // a bowl, or a cup below its handle, reaches down where it is narrower
+  Eigen::Vector3d middle = out.points.rowwise().mean();
+  middle -= table.height(middle) * table.normal;
   std::size_t seen = 0, resting = 0;
   for (const auto& [height, column] : heights) {
     resting += rests(column);
-    for (int k = 1; k <= STEPS; ++k)
-      if (seenThrough(o.at(column) - height * k / STEPS * table.normal)) {
-        ++seen;
-        break;
-      }
+    const Eigen::Vector3d p = o.at(column);
+    seen += seenAlong(p, -height * table.normal) && seenAlong(p, middle - p);
   }
   out.hidden_below =
       double(seen) < SEEN * double(low) && double(resting) < SEEN * double(low);

@@ -38,7 +38,7 @@ bool occluded(const Observation& o, const DepthPatch& patch, int x, int y) {
 bool besideAnother(const Observation& o, const DepthPatch& patch, int x, int y) {
   if (o.view.others.cells.empty())
     return false;
-  constexpr std::size_t WINDOW = (2 * OCCLUDER_REACH + 1) * (2 * OCCLUDER_REACH + 1);
+  constexpr std::size_t SIDE = 2 * OCCLUDER_REACH + 1, WINDOW = SIDE * SIDE;
   std::array<double, WINDOW> depths, spare;
   std::size_t others = 0;
   bool near = false;

@@ -72,7 +72,7 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   const Eigen::Index n = points.cols();
   if (n < FEWEST)
     return;
-  Neighbourhood neighbourhood(points, 1);
+  Neighbourhood neighbourhood(points);
   const Eigen::Index step = std::max<Eigen::Index>(1, n / PATCHES);
   Eigen::AlignedBox3d box;
   std::vector<double> densities;
@@ -128,26 +128,22 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
 std::optional<PointSpread::Patch>
 PointSpread::patchOf(const Eigen::Matrix3Xd& points,
                      Eigen::Index middle,
-                     const std::vector<Eigen::Index>& around) {
-  std::vector<std::pair<double, Eigen::Index>> near;
-  near.reserve(around.size());
-  for (const Eigen::Index k : around)
-    near.emplace_back((points.col(k) - points.col(middle)).squaredNorm(), k);
-  std::sort(near.begin(), near.end());
+                     const std::vector<Eigen::Index>& near) {
   const auto meanOf = [&](std::size_t begin, std::size_t end) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (std::size_t k = begin; k < end; ++k)
-      mean += points.col(near[k].second) / double(end - begin);
+      mean += points.col(near[k]) / double(end - begin);
     return mean;
   };
   const Eigen::Vector3d mean = meanOf(0, PLANE);
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < PLANE; ++k) {
-    const Eigen::Vector3d d = points.col(near[k].second) - mean;
+    const Eigen::Vector3d d = points.col(near[k]) - mean;
     square += d * d.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(square);
-  const double reach = near[NEIGHBOURS].first;
+  const double reach =
+      (points.col(near[NEIGHBOURS]) - points.col(middle)).squaredNorm();
   if (!(reach > 0.0) || eigen.info() != Eigen::Success)
     return std::nullopt;
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);

@@ -33,10 +33,10 @@ private:
     double density; ///< points' number per area, but for a factor
     double bulge;   ///< along the normal, of the middle over its surroundings [m]
   };
-  /** \brief A point and what is around it. */
+  /** \brief A point and what is around it, nearest first. */
   static std::optional<Patch> patchOf(const Eigen::Matrix3Xd& points,
                                       Eigen::Index middle,
-                                      const std::vector<Eigen::Index>& around);
+                                      const std::vector<Eigen::Index>& near);
   /** \brief Of the logarithm of the points' number per pixel: how uneven it is. */
   double unevenness(const Eigen::Vector3d& place) const;
   /** \brief How far all patches face a place, or all turn away from it, their outsides

@@ -82,15 +82,10 @@ Eigen::Vector3d ownPlane(const Eigen::Matrix3Xd& points,
 
 Sheet sheetAt(const Eigen::Matrix3Xd& points,
               Eigen::Index i,
-              std::vector<Eigen::Index> near) {
+              const std::vector<Eigen::Index>& near) {
   Sheet sheet;
   const Eigen::Vector3d at = points.col(i);
   const auto n = near.size();
-  std::sort(near.begin(), near.end(), [&](Eigen::Index a, Eigen::Index b) {
-    const double da = (points.col(a) - at).squaredNorm(),
-                 db = (points.col(b) - at).squaredNorm();
-    return da != db ? da < db : a < b;
-  });
   Half half(n);
   half.choose(points, near, ownPlane(points, near), at);
   const std::vector<double>& height = half.height;
@@ -147,7 +142,7 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
   for (std::size_t k = 0; k < n; ++k)
     if (sheet.other == 0.0 || std::abs(height[k]) < 0.5 * std::abs(sheet.other))
       same.push_back(near[k]);
-  constexpr std::size_t ENOUGH = 2 * LocalQuadric::TERMS;
+  constexpr std::size_t ENOUGH = std::size_t(2) * LocalQuadric::TERMS;
   if (same.size() >= ENOUGH) {
     const LocalQuadric patch = localQuadric(points, same);
     if (patch.residuals.size() > 0)
@@ -158,16 +153,26 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
 
 } // namespace
 
-std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points, Eigen::Index step) {
+std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points) {
+  const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / LOOKED_AT);
   std::vector<Sheet> sheets;
   if (points.cols() < Eigen::Index(2 * NEIGHBOURS))
     return sheets;
-  Neighbourhood neighbourhood(points, 1);
+  Neighbourhood neighbourhood(points);
   for (Eigen::Index i = 0; i < points.cols(); i += step)
     sheets.push_back(sheetAt(points, i, neighbourhood.of(i, NEIGHBOURS)));
   return sheets;
 }
 
+double doubled(const std::vector<Sheet>& sheets) {
+  const auto count = std::count_if(
+      sheets.begin(), sheets.end(), [](const Sheet& s) { return s.other != 0.0; });
+  return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
+}
+
+namespace {
+
+/** \brief Noise of independent points, from the sheets that scatter least [m]. */
 double noiseOf(const std::vector<Sheet>& sheets) {
   std::vector<double> scatters;
   for (const Sheet& s : sheets)
@@ -180,15 +185,23 @@ double noiseOf(const std::vector<Sheet>& sheets) {
   return *at / OF_SMOOTH;
 }
 
-double doubled(const std::vector<Sheet>& sheets) {
-  const auto count = std::count_if(
-      sheets.begin(), sheets.end(), [](const Sheet& s) { return s.other != 0.0; });
-  return sheets.empty() ? 0.0 : double(count) / double(sheets.size());
+/** \brief Whether both sides of walls show, as solids do not. Where points are dense,
+ * fewer are looked at: all neighbours would be on one side. */
+bool showWalls(const Eigen::Matrix3Xd& points, const std::vector<Sheet>& sheets) {
+  const Eigen::Index step = 1 + (points.cols() - 1) / WALL_POINTS;
+  if (step <= 1)
+    return doubled(sheets) > TWO_SIDES;
+  Eigen::Matrix3Xd some(3, points.cols() / step);
+  for (Eigen::Index i = 0; i < some.cols(); ++i)
+    some.col(i) = points.col(i * step);
+  return doubled(sheetsOf(some)) > TWO_SIDES;
 }
 
-bool hasTwoSides(const Eigen::Matrix3Xd& points) {
-  const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / LOOKED_AT);
-  return doubled(sheetsOf(points, step)) > TWO_SIDES;
+} // namespace
+
+ObservedObject::Surface surfaceOf(const Eigen::Matrix3Xd& points) {
+  const std::vector<Sheet> sheets = sheetsOf(points);
+  return {noiseOf(sheets), showWalls(points, sheets)};
 }
 
 } // namespace pcl_sq::detail

@@ -3,7 +3,7 @@
 // thin wall's other side is near.
 #pragma once
 
-#include <Eigen/Core>
+#include "pcl_sq/object_view.h"
 
 #include <vector>
 
@@ -20,16 +20,14 @@ struct Sheet {
   double scatter = -1.0;
 };
 
-/** \brief The sheets about every \a step-th point. */
-std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points, Eigen::Index step);
-
-/** \brief Noise of independent points, from the sheets that scatter least [m]. */
-double noiseOf(const std::vector<Sheet>& sheets);
+/** \brief The sheets about some of the points. */
+std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points);
 
 /** \brief Share of the sheets that have another one beyond them. */
 double doubled(const std::vector<Sheet>& sheets);
 
-/** \brief Whether points show both sides of thin walls, as no single view does. */
-bool hasTwoSides(const Eigen::Matrix3Xd& points);
+/** \brief The noise of bare points, and whether they are of both sides of thin walls,
+ * as no single view and no solid shows. */
+ObservedObject::Surface surfaceOf(const Eigen::Matrix3Xd& points);
 
 } // namespace pcl_sq::detail

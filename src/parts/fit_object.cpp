@@ -2,8 +2,10 @@
 // One object, as few superquadrics as the data allow: split while it pays.
 #include "pcl_sq/fit_object.h"
 
+#include "geometry/open_body.h"
 #include "observe/sheets.h"
-#include "parts/outline_gaps.h"
+#include "outlines/outline_gaps.h"
+#include "outlines/stalk.h"
 #include "parts/split_view.h"
 #include "parts/union_score.h"
 #include "parts/verdict.h"
@@ -153,7 +155,7 @@ MultiSuperquadric modelOf(const std::vector<Piece>& pieces) {
  * handed out, and that is: of a thing that is half hidden, parts may each follow a
  * scrap of what is seen. */
 void takeWholeIfBetter(const PieceContext& context,
-                       Piece whole,
+                       const Piece& whole,
                        std::vector<Piece>& pieces) {
   const auto isRefused = [&](const std::vector<Piece>& of) {
     double noise = 0.0;
@@ -163,7 +165,7 @@ void takeWholeIfBetter(const PieceContext& context,
   };
   if (pieces.size() < 2 || !isRefused(pieces))
     return;
-  std::vector<Piece> one(1, std::move(whole));
+  std::vector<Piece> one(1, whole);
   finish(context, one);
   if (!isRefused(one))
     pieces = std::move(one);
@@ -205,19 +207,23 @@ bool ObjectFitOptions::isValid(std::string* why) const {
   return check.passed() && fit.isValid(why);
 }
 
-ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& options) {
+ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& asked) {
   ObjectFit fit;
   if (spannedDimensions(observed.points) < 3)
     return fit;
+  ObjectFitOptions options = asked;
+  ObservedObject::Surface surface;
+  if (!observed.hasCamera()) {
+    surface = observed.surface ? *observed.surface : surfaceOf(observed.points);
+    options.fit.vessel = options.fit.vessel && surface.two_sided;
+  }
   double noise = options.fit.noise;
   const bool measured = observed.noise.size() > 0;
   if (!(noise > 0.0))
     noise = measured ? medianNoise(observed)
             : observed.hasCamera()
                 ? localNoise(observed.points, observed.effective_points)
-                : noiseOf(sheetsOf(observed.points,
-                                   std::max<Eigen::Index>(
-                                       1, observed.points.cols() / NOISE_SAMPLES)));
+                : surface.noise;
   PieceContext context{
       observed, options, 0.0, precisionOf(observed, noise), {}, pixelStep(observed)};
   const double min_gain = std::max(MIN_GAIN, SMALL_GAIN * observed.effective_points);
@@ -261,12 +267,16 @@ ObjectFit fitObject(const ObservedObject& observed, const ObjectFitOptions& opti
         openGap(context, pieces, min_gain);
       finish(context, pieces);
       if (options.parts == 0)
+        addStalks(context, pieces, wanted);
+      if (options.parts == 0)
         takeWholeIfBetter(context, whole, pieces);
     } else if (!fitWholeVessel(context, pieces))
       pieces =
           splitSolids(context, points_noise, std::move(pieces[0]), wanted, min_gain);
   }
   fit.labels.assign(std::size_t(observed.points.cols()), -1);
+  for (Piece& piece : pieces)
+    piece.fit.fit.model = withRimNearTop(piece.fit.fit.model);
   fit.model = modelOf(pieces);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     fit.bic += pieces[k].score;

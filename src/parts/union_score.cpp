@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/union_score.h"
 
-#include "parts/exposed_area.h"
 #include "tuning/parts_tuning.h"
+#include "union/exposed_area.h"
 #include "util/point_grid.h"
 #include "view_problem/plane_cost.h"
 
@@ -52,29 +52,13 @@ private:
 
 namespace {
 
-/** \brief Signed distances to a tapered body: first-order ones where they make no
- * difference, for those of foot points cost ten times as much. */
-Eigen::VectorXd taperedDistances(const Superquadric& model,
-                                 const Eigen::Matrix3Xd& points,
-                                 double reach) {
-  Eigen::VectorXd distances(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    distances[i] = model.firstOrderDistance(points.col(i));
-    if (std::abs(distances[i]) < 2.0 * reach)
-      distances[i] = model.footPointDistance(points.col(i));
-  }
-  return distances;
-}
-
 std::shared_ptr<const BodyTrace> traceOf(const PieceContext& context,
                                          const Superquadric& model) {
   auto trace = std::make_shared<BodyTrace>();
   const Eigen::Matrix3Xd& points = context.observed.points;
   trace->model = model;
   trace->box = model.boundingBox();
-  trace->distances = model.isTapered() && !model.isCut()
-                         ? taperedDistances(model, points, OUTLYING * context.noise)
-                         : surfaceDistances(model, points);
+  trace->distances = surfaceDistances(model, points);
   trace->cells = surfaceCells(model);
   // one width for both of two surfaces that run side by side, or the area between them
   // would depend on the sizes of their cells
@@ -143,25 +127,41 @@ std::vector<std::size_t> nearestParts(const std::vector<Part>& parts,
 
 void fitPart(const PieceContext& context, Part& part, Effort effort) {
   fitPiece(context, part.piece, effort);
+  traceWithinBox(context, part);
+}
+
+void traceWithinBox(const PieceContext& context, Part& part) {
   traceAgain(context, part);
   if (part.trace && part.trace->sticks_out > SLACK * context.observed.extent) {
     PieceContext within = context;
     const std::vector<TangentPlane> sides = sidesOfBox(context.observed);
     within.limits.insert(within.limits.end(), sides.begin(), sides.end());
     Part held = part;
-    fitPiece(within, held.piece, effort);
+    fitPiece(within, held.piece, Effort::SAME);
     traceAgain(context, held);
     if (held.trace && held.trace->sticks_out < part.trace->sticks_out)
       part = std::move(held);
   }
 }
 
+namespace {
+
+/** \brief What a body is worse by that leaves the points' box: far more than any part
+ * can gain, and yet one such description can be compared with another. */
+double outsideCost(const ObservedObject& o, const BodyTrace& trace) {
+  const double out = trace.sticks_out / (BEYOND * o.extent);
+  return out > 1.0 ? OUTSIDE * out * o.effective_points : 0.0;
+}
+
+} // namespace
+
 double scoreOf(const PieceContext& context, const std::vector<const Part*>& parts) {
   const ObservedObject& o = context.observed;
   double parameters = 0.0, demand = 0.0, area = 0.0;
   for (const Part* part : parts) {
-    if (!part->trace || part->trace->sticks_out > BEYOND * o.extent)
+    if (!part->trace)
       return 1e300;
+    demand += outsideCost(o, *part->trace);
     parameters += part->piece.fit.chosen.parameters;
     if (part->trace->model.isTapered())
       demand += TAPER;
@@ -184,9 +184,9 @@ double scoreOf(const PieceContext& context, const std::vector<const Part*>& part
 }
 
 double mostGain(const PieceContext& context, const Part& part) {
-  if (!part.trace)
-    return 1e300;
   const ObservedObject& o = context.observed;
+  if (!part.trace || outsideCost(o, *part.trace) > 0.0)
+    return 1e300;
   const double off = costOf(context, {&part}) / double(o.points.cols()) - 1.0;
   const double bare =
       -2.0 * std::log(std::max(covered(context, part.trace->model), 1e-6));

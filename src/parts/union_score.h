@@ -20,6 +20,10 @@ struct Part {
 /** \brief Fits a part's piece. */
 void fitPart(const PieceContext& context, Part& part, Effort effort);
 
+/** \brief After a part's piece was fitted: looks whether the body leaves the points'
+ * box, and holds it within. */
+void traceWithinBox(const PieceContext& context, Part& part);
+
 /** \brief After a part's piece was fitted elsewhere. */
 void traceAgain(const PieceContext& context, Part& part);
 

@@ -13,19 +13,6 @@ namespace {
 using namespace tuning::part;
 using namespace tuning::whole_search;
 
-double scoreWith(const PieceContext& context,
-                 const Description& d,
-                 std::size_t k,
-                 const Way& way) {
-  std::vector<const Part*> parts;
-  for (std::size_t i = 0; i < d.members.size(); ++i)
-    if (i != k)
-      parts.push_back(&d.members[i].part);
-  for (const Part& p : way.parts)
-    parts.push_back(&p);
-  return scoreOf(context, parts);
-}
-
 ObjectFitOptions withoutFamilies(ObjectFitOptions options) {
   options.fit.taper = options.fit.bend = options.fit.vessel = false;
   return options;
@@ -59,82 +46,6 @@ double WholeMoves::score(const std::vector<Member>& members) const {
   return scoreOf(context_, parts);
 }
 
-/** \brief Pieces of a part: both sides of planes, its limbs, what lies off its body. */
-std::vector<Way> WholeMoves::proposals(const Part& part) const {
-  std::vector<Way> ways;
-  for (const Cut& cut : proposeCuts(context_, part.piece)) {
-    Way way;
-    for (const Cut& side : {cut, cut.flipped()}) {
-      way.parts.emplace_back();
-      way.parts.back().piece = cutPiece(context_, part.piece, side);
-    }
-    ways.push_back(std::move(way));
-  }
-  const auto add = [&](const std::vector<Segment>& segments) {
-    Way way;
-    for (const Segment& s : segments) {
-      way.parts.emplace_back();
-      way.parts.back().piece.points = s;
-    }
-    ways.push_back(std::move(way));
-  };
-  const Segment& points = part.piece.points;
-  for (const auto& segments :
-       graph_.limbs(points, part.piece.fit.fit.model.rotation, MIN_POINTS))
-    add(segments);
-  Segment off, on;
-  for (const int i : points)
-    (std::abs(distanceOf(part, i)) > OFF * context_.noise ? off : on).push_back(i);
-  std::vector<Segment> residual;
-  for (Segment& component : graph_.components(off))
-    if (component.size() >= MIN_POINTS)
-      residual.push_back(std::move(component));
-    else
-      on.insert(on.end(), component.begin(), component.end());
-  if (!residual.empty() && on.size() >= MIN_POINTS) {
-    residual.push_back(on);
-    add(residual);
-  }
-  return ways;
-}
-
-/** \brief Looks for the ways to cut a member, the best ones first. */
-void WholeMoves::findWays(Description& d, std::size_t k) const {
-  Member& member = d.members[k];
-  if (member.ways)
-    return;
-  std::vector<Way> ways = proposals(member.part);
-  const auto room = std::size_t(std::max(0, wanted_ - int(d.members.size()) + 1));
-  ways.erase(std::remove_if(ways.begin(),
-                            ways.end(),
-                            [&](const Way& way) {
-                              return way.parts.size() > room ||
-                                     std::any_of(way.parts.begin(),
-                                                 way.parts.end(),
-                                                 [](const Part& p) {
-                                                   return p.piece.points.size() <
-                                                          MIN_POINTS;
-                                                 });
-                            }),
-             ways.end());
-  std::vector<std::pair<std::size_t, std::size_t>> fits;
-  for (std::size_t w = 0; w < ways.size(); ++w)
-    for (std::size_t p = 0; p < ways[w].parts.size(); ++p)
-      fits.emplace_back(w, p);
-  parallelFor(fits.size(), threads_, [&](std::size_t i) {
-    fitPart(plain_, ways[fits[i].first].parts[fits[i].second], Effort::QUICK);
-  });
-  parallelFor(ways.size(), threads_, [&](std::size_t w) {
-    ways[w].gain = d.score - scoreWith(context_, d, k, ways[w]);
-  });
-  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
-    return a.gain > b.gain;
-  });
-  if (ways.size() > KEPT)
-    ways.resize(KEPT);
-  member.ways = std::make_shared<const std::vector<Way>>(std::move(ways));
-}
-
 /** \brief Gives points to the nearest part and fits the parts again while that pays. */
 void WholeMoves::settle(Description& d) const {
   d.score = score(d.members);
@@ -150,15 +61,41 @@ void WholeMoves::settle(Description& d) const {
       next.members[k] = d.members[k];
       if (parts[k].piece.points == d.members[k].part.piece.points)
         return;
-      fitPart(context_, parts[k], Effort::AGAIN);
-      next.members[k].part = std::move(parts[k]);
-      next.members[k].ways = nullptr;
+      fitPart(context_, parts[k], Effort::SAME);
+      next.members[k] = {std::move(parts[k]), next.members[k].ways};
     });
     next.score = score(next.members);
     if (!(next.score < d.score))
       return;
     d = std::move(next);
   }
+}
+
+void WholeMoves::askFamilies(Description& d) const {
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < d.members.size() && d.score < 1e299; ++k)
+    if (!d.members[k].asked)
+      open.push_back(k);
+  std::vector<Part> again(open.size());
+  parallelFor(open.size(), threads_, [&](std::size_t i) {
+    again[i] = d.members[open[i]].part;
+    fitPart(context_, again[i], Effort::AGAIN);
+  });
+  bool changed = false;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    Member& member = d.members[open[i]];
+    member.asked = true;
+    std::swap(member.part, again[i]);
+    const double with = score(d.members);
+    if (with < d.score) {
+      d.score = with;
+      member.is_current = false;
+      changed = true;
+    } else
+      std::swap(member.part, again[i]);
+  }
+  if (changed)
+    settle(d);
 }
 
 Description WholeMoves::cutOnce(Description& d) const {
@@ -190,7 +127,7 @@ Description WholeMoves::cutOnce(Description& d) const {
     const std::vector<Part>& parts = (*d.members[c.member].ways)[c.way].parts;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       Member member{parts[p], nullptr};
-      fitPart(context_, member.part, Effort::AGAIN);
+      fitPart(context_, member.part, Effort::UNBENT);
       if (p == 0)
         members[c.member] = std::move(member);
       else
@@ -205,7 +142,9 @@ Description WholeMoves::cutOnce(Description& d) const {
     if (tries[i].score < least + QUICK_SLACK)
       settle(tries[i]);
   });
-  return bestOf(tries);
+  Description best = bestOf(tries);
+  askFamilies(best);
+  return best;
 }
 
 /** \brief Two members that become one; the same one twice: it is left out. */
@@ -262,7 +201,7 @@ Description WholeMoves::joined(const Description& d, const Join& join) const {
   next.members.erase(next.members.begin() + std::ptrdiff_t(join.b));
   if (join.a != join.b) {
     next.members[join.a] = {join.part, nullptr};
-    fitPart(context_, next.members[join.a].part, Effort::AGAIN);
+    fitPart(context_, next.members[join.a].part, Effort::UNBENT);
   } else {
     std::vector<Part> parts;
     for (const Member& m : next.members)
@@ -273,9 +212,8 @@ Description WholeMoves::joined(const Description& d, const Join& join) const {
       parts[owner[i]].piece.points.push_back(points[i]);
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (parts[k].piece.points.size() != next.members[k].part.piece.points.size()) {
-        fitPart(context_, parts[k], Effort::AGAIN);
-        next.members[k].part = std::move(parts[k]);
-        next.members[k].ways = nullptr;
+        fitPart(context_, parts[k], Effort::SAME);
+        next.members[k] = {std::move(parts[k]), next.members[k].ways};
       }
   }
   settle(next);
@@ -289,7 +227,9 @@ Description WholeMoves::mergeOnce(const Description& d) {
     if (joins[t].score < 1e299)
       tries[t] = joined(d, joins[t]);
   });
-  return bestOf(tries);
+  Description best = bestOf(tries);
+  askFamilies(best);
+  return best;
 }
 
 } // namespace pcl_sq::detail

@@ -2,7 +2,6 @@
 #include "parts/whole_search.h"
 
 #include "tuning/parts_tuning.h"
-#include "util/parallel_for.h"
 
 #include <cmath>
 
@@ -82,7 +81,7 @@ bool WholeSearch::isPromising(std::size_t parts) const {
 
 Description WholeSearch::run(Part whole) {
   found_.resize(2);
-  found_[1].members.push_back({std::move(whole), nullptr});
+  found_[1].members.push_back({std::move(whole), nullptr, false, true});
   found_[1].score = moves_.score(found_[1].members);
   bool changed = true;
   for (int sweep = 0; sweep < SWEEPS && changed; ++sweep) {
@@ -102,25 +101,6 @@ Description WholeSearch::run(Part whole) {
 }
 
 } // namespace
-
-void WholeMoves::refine(Description& d) const {
-  d.score = score(d.members);
-  std::vector<Part> again;
-  for (const Member& m : d.members)
-    again.push_back(m.part);
-  parallelFor(again.size(), threads_, [&](std::size_t k) {
-    fitPart(context_, again[k], Effort::AGAIN);
-  });
-  for (std::size_t k = 0; k < again.size(); ++k) {
-    std::swap(d.members[k].part, again[k]);
-    const double with = score(d.members);
-    if (with < d.score)
-      d.score = with;
-    else
-      std::swap(d.members[k].part, again[k]);
-  }
-  settle(d);
-}
 
 namespace {
 
@@ -163,7 +143,8 @@ void refineParts(const PieceContext& context, std::vector<Piece>& pieces) {
     traceAgain(context, part);
     d.members.push_back({std::move(part), nullptr});
   }
-  WholeMoves(context, int(pieces.size())).refine(d);
+  d.score = 1e298; // that of the noise they were found by is none
+  WholeMoves(context, int(pieces.size())).askFamilies(d);
   pieces.clear();
   for (Member& m : d.members)
     pieces.push_back(std::move(m.part.piece));

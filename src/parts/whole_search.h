@@ -20,6 +20,8 @@ struct Way {
 struct Member {
   Part part;
   std::shared_ptr<const std::vector<Way>> ways;
+  bool is_current = false; ///< whether the ways are those of its present points
+  bool asked = false;      ///< whether all families were fitted to its points
 };
 
 /** \brief A description of the object and its score, smaller is better. */
@@ -47,13 +49,16 @@ public:
    * left out and its points given to the others. */
   [[nodiscard]] Description mergeOnce(const Description& d);
 
-  /** \brief Fits all members by all families while that pays. */
-  void refine(Description& d) const;
+  /** \brief Fits those members by all families that only the cheap ones were asked to
+   * describe; what makes the description better is kept. */
+  void askFamilies(Description& d) const;
 
 private:
   struct Join;
 
   std::vector<Way> proposals(const Part& part) const;
+  std::vector<Way> quickWays(const Part& part, double rest, int room) const;
+  bool adapt(const Part& part, std::vector<Way>& ways) const;
   void findWays(Description& d, std::size_t k) const;
   void settle(Description& d) const;
   std::vector<Join> joinsOf(const Description& d);

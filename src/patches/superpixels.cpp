@@ -71,9 +71,9 @@ private:
       s = {};
     for (std::size_t i = 0; i < set_.size(); ++i) {
       const int c = set_[i];
+      const int x = c % view_.width, y = c / view_.width;
       Seed& s = seeds_[std::size_t(of_pixel_[std::size_t(c)])];
-      s.at += Eigen::Vector3f(
-          float(c % view_.width), float(c / view_.width), view_.points(2, c));
+      s.at += Eigen::Vector3f(float(x), float(y), view_.points(2, c));
       s.shade += shades_[std::size_t(c)];
       s.normal += normals_.col(c);
       s.count += 1.0F;
@@ -96,7 +96,7 @@ private:
     for (int j = std::max(0, y / STEP - 1); j <= std::min(rows_ - 1, y / STEP + 1); ++j)
       for (int i = std::max(0, x / STEP - 1); i <= std::min(columns_ - 1, x / STEP + 1);
            ++i) {
-        const Seed& s = seeds_[std::size_t(j * columns_ + i)];
+        const Seed& s = seeds_[std::size_t(j) * std::size_t(columns_) + std::size_t(i)];
         if (s.count == 0.0F)
           continue;
         float d = (at - s.at).cwiseProduct(scale).squaredNorm() +
@@ -229,7 +229,7 @@ Superpixels divide(const SceneView& view, const CellMask& pixels) {
         const int other = result.of_pixel[std::size_t(d)];
         // a nearer neighbour says it better
         if (other < 0 || other == piece ||
-            (far == 2 && result.of_pixel[std::size_t(c + step)] >= 0))
+            (far == 2 && result.of_pixel[std::size_t(c) + std::size_t(step)] >= 0))
           continue;
         Border& border = borders[std::minmax(piece, other)];
         const double z = std::min(p.z(), double(view.points(2, d)));

@@ -145,9 +145,7 @@ bool RayTest::hits(const Eigen::Vector3d& ray) const {
   const double abreast = ray.dot(body_.center - eye_);
   if (abreast > 0.0 && body_.gauge(eye_ + abreast * ray) <= 1.0)
     return true;
-  LineInterval inside;
-  return intersectLineBox(body_, eye_, ray, inside) &&
-         intersectLine(body_, eye_, ray, inside) && inside.leave > 0.0;
+  return meetsRay(body_, eye_, ray);
 }
 
 } // namespace pcl_sq::detail

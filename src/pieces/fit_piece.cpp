@@ -139,7 +139,11 @@ void fitPiece(const PieceContext& context,
     }
     return assessed;
   };
-  Piece best = assess(searchView(points, evidence, options, against), 0.0);
+  const bool same = effort == Effort::SAME && piece.fit.fit.ok();
+  Piece best =
+      assess(same ? fitSameFamily(points, evidence, options, std::move(piece.fit))
+                  : searchView(points, evidence, options, against),
+             0.0);
   const int rounds = effort == Effort::FINAL ? FREE_ROUNDS : 0;
   for (int round = 0; round < rounds && best.fit.fit.ok(); ++round) {
     if (!coversFreeSpace(best))

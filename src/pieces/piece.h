@@ -91,6 +91,7 @@ enum class Effort {
   START,    ///< general shape, all starts: where AGAIN goes on from
   FULL,     ///< all shapes, all starts
   AGAIN,    ///< all shapes from the last fit
+  SAME,     ///< the shape that it has, from the last fit
   STRAIGHT, ///< the same without tapers, walls and bends: cuts are ranked by these
   UNBENT,   ///< the same without bends, which a cut is to pay without
   FINAL     ///< the same, and held off the free pixels

@@ -225,6 +225,10 @@ void SceneEstimator::fit(const pcl::Indices& pixels, SceneObject& object) const 
 }
 
 bool SceneEstimator::fitAll() {
+  // the largest first: who begins it last keeps all others waiting
+  std::stable_sort(things_.begin(), things_.end(), [](const auto& a, const auto& b) {
+    return a.size() > b.size();
+  });
   scene_.objects.resize(things_.size());
   parallelFor(things_.size(), threads_, [&](std::size_t k) {
     fit(things_[k], scene_.objects[k]);

@@ -65,7 +65,8 @@ struct Thinned {
     points.resize(3, Eigen::Index(width) * height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
-        points.col(y * width + x) = all.col(Eigen::Index(y * step) * w + x * step);
+        points.col(Eigen::Index(y) * width + x) =
+            all.col(Eigen::Index(y * step) * w + x * step);
     camera.fx /= step;
     camera.fy /= step;
     camera.cx /= step;

@@ -13,13 +13,15 @@ namespace {
 
 constexpr int CELL = 40;           ///< pixels of the coarse grid: light changes slowly
 constexpr float SAME_COLOR = 1.0F; ///< steps of shadeOf()
-constexpr float UNEVEN = 2.0F;     ///< the same, between places of one table
-constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels
-constexpr float CLEARLY = 0.5F;    ///< of the distance to the table: the thing's own
-constexpr double OUTLINED = 0.7;   ///< of the outline, that is an edge of the colour
-constexpr double HIGHEST = 2.0;    ///< standing heights about the table
-constexpr int HALO = 8;    ///< pixels: as far as windows and interpolation reach
-constexpr int MISSING = 4; ///< pixels without depth that are bridged
+constexpr float UNEVEN = 2.0F;     ///< steps of shadeOf(), between places of one table
+constexpr float LIKE_TABLE = 0.5F; ///< the same of a mean over several pixels, at least
+constexpr float OVER_MEDIAN =
+    2.2F;                        ///< 99 in 100 of a Gaussian in space, over the median
+constexpr float CLEARLY = 0.5F;  ///< of the distance to the table: the thing's own
+constexpr double OUTLINED = 0.7; ///< of the outline, that is an edge of the colour
+constexpr double HIGHEST = 2.0;  ///< standing heights about the table
+constexpr int HALO = 8;          ///< pixels: as far as windows and interpolation reach
+constexpr int MISSING = 4;       ///< pixels without depth that are bridged
 
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
@@ -57,17 +59,26 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
     const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
     if (hueDistance(shade, middle) > UNEVEN)
       continue;
-    const auto cell =
-        std::size_t(c / view.width / CELL * columns_ + c % view.width / CELL);
+    const auto cell = std::size_t(c / view.width / CELL) * std::size_t(columns_) +
+                      std::size_t(c % view.width / CELL);
     cells_[cell] += shade;
     counts[cell] += 1.0F;
   }
   for (std::size_t k = 0; k < cells_.size(); ++k)
     cells_[k] /= counts[k];
+  // a saturated colour scatters, and is the table's all the same
+  values.clear();
+  for (std::size_t i = 0; i < level.size(); i += 7) {
+    const int x = level[i] % view.width, y = level[i] / view.width;
+    values.push_back(hueDistance(shadeAt(x, y), near(x, y)));
+  }
+  const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  like_ = std::max(LIKE_TABLE, OVER_MEDIAN * *half);
 }
 
 Eigen::Vector4f TableColor::near(int x, int y) const {
-  return cells_[std::size_t(y / CELL * columns_ + x / CELL)];
+  return cells_[std::size_t(y / CELL) * std::size_t(columns_) + std::size_t(x / CELL)];
 }
 
 Eigen::Vector4f TableColor::shadeAt(int x, int y) const {
@@ -86,7 +97,8 @@ std::vector<bool> TableColor::outlined(const LabelImage& labels) const {
   const int w = view_.width;
   for (int y = 1; y + 1 < view_.height && !cells_.empty(); ++y)
     for (int x = 1; x + 1 < w; ++x) {
-      const std::uint16_t* at = &labels.values[std::size_t(y * w + x)];
+      const std::uint16_t* at =
+          &labels.values[std::size_t(y) * std::size_t(w) + std::size_t(x)];
       if (*at == 0 || (at[-1] > 0 && at[1] > 0 && at[-w] > 0 && at[w] > 0))
         continue;
       ++edges[*at];
@@ -217,14 +229,14 @@ void TableColor::growFeet(LabelImage& labels) const {
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
       const int u = x + dx, v = y + dy;
       if (u < 0 || v < 0 || u >= w || v >= h ||
-          labels.values[std::size_t(v * w + u)] > 0)
+          labels.values[std::size_t(v) * std::size_t(w) + std::size_t(u)] > 0)
         continue;
       const int c = v * w + u;
       const int missing = view_.finite(c) ? 0 : step.missing + 1;
       const bool level = missing > 0 ? missing <= MISSING : isLow(c);
       const Eigen::Vector4f shade = shadeAt(u, v);
       const float from_table = hueDistance(shade, near(u, v));
-      if (!level || from_table < LIKE_TABLE ||
+      if (!level || from_table < like_ ||
           hueDistance(shade, step.shade) > CLEARLY * from_table ||
           isFootOfOther(labels, u, v))
         continue;

@@ -42,6 +42,7 @@ private:
   const SceneView& view_;
   int columns_ = 0, rows_ = 0;
   std::vector<Eigen::Vector4f> cells_; ///< mean shade, of a coarse grid
+  float like_ = 0.0F; ///< how far a mean over several of the table's pixels is from it
 };
 
 } // namespace pcl_sq::detail

@@ -28,6 +28,7 @@ constexpr double DOUBLE_CELLS = 0.2;  ///< more cells with two layers make no vi
 /** \brief Largest median scatter about the cells' planes, in half diagonals: noise and
  * curvature stay below, front and back of a rod do not. */
 constexpr double SCATTER = 0.03;
+constexpr double MUCH = 2.0; ///< more of either than a view from nearby has
 /** \brief Determinant over the trace's square of points on a line, by rounding. */
 constexpr double SLIVER = 1e-12;
 
@@ -62,8 +63,12 @@ double scatter(const SeenPoint* cell, std::size_t count) {
 
 /** \brief What points look like from a place. */
 struct Look {
-  bool once = false;  ///< hardly any ray meets two layers of them
+  /** \brief How much more than in a view rays meet two layers of them: up to 1 hardly
+   * any does. MUCH or more: not known any better. */
+  double doubt = MUCH;
   double bulge = 0.0; ///< range at the rim of the view over that in its middle [m]
+
+  bool once() const { return doubt <= 1.0; }
 };
 
 Look lookFrom(const Eigen::Vector3d& place,
@@ -96,7 +101,8 @@ Look lookFrom(const Eigen::Vector3d& place,
     }
     const double range = (points.col(i) - place).norm();
     ranges[std::size_t(i)] = range;
-    cell_of[std::size_t(i)] = std::size_t(cell[0] + cells * cell[1]);
+    cell_of[std::size_t(i)] =
+        std::size_t(cell[0]) + std::size_t(cells) * std::size_t(cell[1]);
     ++begins[cell_of[std::size_t(i)] + 1];
     (radius < 0.4 ? inner : outer) += range;
     ++(radius < 0.4 ? inner_count : outer_count);
@@ -109,12 +115,15 @@ Look lookFrom(const Eigen::Vector3d& place,
   for (std::size_t i = 0; i < ranges.size(); ++i)
     seen[next[cell_of[i]]++] = {
         image(0, Eigen::Index(i)), image(1, Eigen::Index(i)), ranges[i]};
+  const auto isFilled = [&](std::size_t c) { return begins[c + 1] - begins[c] >= 4; };
   std::size_t layered = 0, filled = 0;
+  for (std::size_t c = 0; c < cell_count; ++c)
+    filled += isFilled(c);
+  const double allowed = DOUBLE_CELLS * double(filled); // with two layers
   for (std::size_t c = 0; c < cell_count; ++c) {
-    const std::size_t begin = begins[c], end = begins[c + 1];
-    if (end - begin < 4)
+    if (!isFilled(c))
       continue;
-    ++filled;
+    const std::size_t begin = begins[c], end = begins[c + 1];
     std::sort(seen.begin() + std::ptrdiff_t(begin),
               seen.begin() + std::ptrdiff_t(end),
               [](const SeenPoint& a, const SeenPoint& b) { return a.range < b.range; });
@@ -124,16 +133,18 @@ Look lookFrom(const Eigen::Vector3d& place,
         ++layered;
         break;
       }
+    if (double(layered) >= MUCH * allowed)
+      return look;
   }
-  if (filled == 0 || double(layered) > DOUBLE_CELLS * double(filled))
+  if (filled == 0)
     return look;
   std::vector<double> scatters;
   for (std::size_t c = 0; c < cell_count; ++c)
-    if (begins[c + 1] - begins[c] >= 4)
+    if (isFilled(c))
       scatters.push_back(scatter(&seen[begins[c]], begins[c + 1] - begins[c]));
   const auto middle_one = scatters.begin() + std::ptrdiff_t(scatters.size() / 2);
   std::nth_element(scatters.begin(), middle_one, scatters.end());
-  look.once = *middle_one <= SCATTER * extent;
+  look.doubt = std::max(double(layered) / allowed, *middle_one / (SCATTER * extent));
   return look;
 }
 
@@ -146,13 +157,13 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points) {
   const double distance = middle.norm();
   if (!(extent > 0.0) || distance < NEAREST * extent || middle.z() < FRONT * distance)
     return false;
-  return lookFrom(Eigen::Vector3d::Zero(), points).once;
+  return lookFrom(Eigen::Vector3d::Zero(), points).once();
 }
 
 std::optional<Eigen::Vector3d>
 guessViewpoint(const Eigen::Matrix3Xd& all,
                bool one_sided,
-               const std::optional<Eigen::Vector3d>& likely) {
+               const std::function<std::optional<Eigen::Vector3d>()>& likely) {
   // a few strays would put the middle anywhere
   const Eigen::Index n = all.cols(), cut = n / 50;
   Eigen::Vector3d low, high;
@@ -174,11 +185,15 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
       points.col(kept++) = all.col(i);
   points.conservativeResize(3, kept);
   const auto some = points.leftCols(std::min(points.cols(), LOOKED_AT));
-  if (likely) {
-    const Eigen::Vector3d place = middle + FAR * extent * *likely;
-    if (lookFrom(place, points).once)
-      return place;
-  }
+  bool asked = !likely;
+  const auto likelyPlace = [&]() -> std::optional<Eigen::Vector3d> {
+    asked = true;
+    const std::optional<Eigen::Vector3d> direction = likely();
+    if (!direction)
+      return std::nullopt;
+    const Eigen::Vector3d place = middle + FAR * extent * *direction;
+    return lookFrom(place, points).once() ? std::optional(place) : std::nullopt;
+  };
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), roundest = Eigen::Vector3d::Zero();
   double most_bulge = -1e300;
   int passed = 0;
@@ -189,7 +204,11 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
     const double r = std::sqrt(1.0 - z * z);
     const Eigen::Vector3d direction(r * std::cos(turn), r * std::sin(turn), z);
     const Look look = lookFrom(middle + FAR * extent * direction, some);
-    if (look.once && look.bulge > BULGE * extent) {
+    // from between two of these directions points look about as from the nearer one
+    if (!asked && (one_sided || look.doubt < MUCH))
+      if (const std::optional<Eigen::Vector3d> place = likelyPlace())
+        return place;
+    if (look.once() && look.bulge > BULGE * extent) {
       sum += direction;
       ++passed;
     }
@@ -204,7 +223,7 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
       !(sum.norm() > 1e-6))
     return std::nullopt;
   const Eigen::Vector3d place = middle + FAR * extent * sum.normalized();
-  return lookFrom(place, points).once ? std::optional(place) : std::nullopt;
+  return lookFrom(place, points).once() ? std::optional(place) : std::nullopt;
 }
 
 } // namespace pcl_sq::detail

@@ -5,6 +5,8 @@
 
 #include "pcl_sq/object_view.h"
 
+#include <functional>
+
 namespace pcl_sq::detail {
 
 /** \brief Takes a cloud into its camera's frame, and what was seen there back. */
@@ -35,11 +37,12 @@ bool isCameraFrame(const Eigen::Matrix3Xd& points);
  * the directions from which each ray meets them once, some way off.
  * \param[in] one_sided whether they are known to be of one side: the likeliest place
  * then, however many there are
- * \param[in] likely direction towards it, if that is known
+ * \param[in] likely tells the direction towards it, if that is known; asked where they
+ * may be of one
  * \return nothing where they may be of several sides */
 std::optional<Eigen::Vector3d>
 guessViewpoint(const Eigen::Matrix3Xd& points,
                bool one_sided,
-               const std::optional<Eigen::Vector3d>& likely = std::nullopt);
+               const std::function<std::optional<Eigen::Vector3d>()>& likely = {});
 
 } // namespace pcl_sq::detail

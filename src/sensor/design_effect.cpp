@@ -48,7 +48,7 @@ double sharingOfErrors(const Eigen::Matrix3Xd& points) {
   if (n < Eigen::Index(2 * count))
     return 1.0;
   std::vector<double> own, all;
-  Neighbourhood neighbourhood(points, 1);
+  Neighbourhood neighbourhood(points);
   for (Eigen::Index i = 0; i < n; i += std::max<Eigen::Index>(1, n / PATCHES)) {
     const LocalQuadric patch = localQuadric(points, neighbourhood.of(i, count));
     if (patch.residuals.size() == 0)

@@ -13,65 +13,81 @@ namespace pcl_sq::detail {
 
 namespace {
 
+/** \brief Of points on a surface in a cell of the grid, about. */
+constexpr double POINTS_A_CELL = 4.0;
 /** \brief The next point's neighbours are about as far as the last one's: of the
  * squared distances over those. */
 constexpr double WIDER = 2.0;
+constexpr double SMALLEST = 0.1; ///< ball that is searched, in cells
+
+std::vector<Eigen::Vector3d> everyOf(const Eigen::Matrix3Xd& points,
+                                     Eigen::Index stride) {
+  std::vector<Eigen::Vector3d> list;
+  list.reserve(std::size_t(points.cols() / stride + 1));
+  for (Eigen::Index k = 0; k < points.cols(); k += stride)
+    list.emplace_back(points.col(k));
+  return list;
+}
+
+/** \brief Side of a square on the surface of the points' box that holds so many of
+ * them. */
+double cellFor(const Eigen::Matrix3Xd& points, Eigen::Index stride) {
+  if (points.cols() == 0)
+    return 1.0;
+  const Eigen::Vector3d size =
+      points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  const double area =
+      2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  const double count = double(points.cols() / stride + 1);
+  // points on a line have no area
+  const double cell =
+      std::max(std::sqrt(POINTS_A_CELL * area / count), size.norm() / count);
+  return cell > 0.0 ? cell : 1.0;
+}
 
 } // namespace
 
 Neighbourhood::Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride)
-    : points_(points) {
-  if (points.cols() == 0)
-    return;
-  (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff(&axis_);
-  std::vector<std::pair<double, Eigen::Index>> order;
-  order.reserve(std::size_t(points.cols() / stride + 1));
-  for (Eigen::Index k = 0; k < points.cols(); k += stride)
-    order.emplace_back(points(axis_, k), k);
-  std::sort(order.begin(), order.end());
-  sorted_.resize(3, Eigen::Index(order.size()));
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    along_.push_back(order[k].first);
-    columns_.push_back(order[k].second);
-    sorted_.col(Eigen::Index(k)) = points.col(order[k].second);
-  }
-}
-
-void Neighbourhood::collect(const Eigen::Vector3d& place, double near_enough) {
-  found_.clear();
-  distances_.clear();
-  const double reach = std::sqrt(near_enough), middle = place[axis_];
-  const auto begin = std::lower_bound(along_.begin(), along_.end(), middle - reach);
-  const auto end = std::upper_bound(begin, along_.end(), middle + reach);
-  for (auto k = std::size_t(begin - along_.begin());
-       k < std::size_t(end - along_.begin());
-       ++k)
-    if (const double d = (sorted_.col(Eigen::Index(k)) - place).squaredNorm();
-        d < near_enough) {
-      distances_.push_back(d);
-      found_.push_back(k);
-    }
-}
+    : points_(points), stride_(stride),
+      grid_(everyOf(points, stride), cellFor(points, stride)), radius_(grid_.cell()) {}
 
 const std::vector<Eigen::Index>& Neighbourhood::of(Eigen::Index i, std::size_t count) {
   const Eigen::Vector3d place = points_.col(i);
-  collect(place, near_enough_);
-  if (found_.size() < count)
-    collect(place, std::numeric_limits<double>::infinity());
-  values_ = distances_;
-  spare_.resize(values_.size());
+  const std::vector<Eigen::Vector3d>& points = grid_.points();
+  for (;; radius_ *= std::sqrt(WIDER)) {
+    found_.clear();
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_);
+    grid_.any({place - reach, place + reach}, [&](std::size_t k) {
+      if (const double d = (points[k] - place).squaredNorm(); d <= radius_ * radius_)
+        found_.emplace_back(d, k);
+      return false;
+    });
+    if (found_.size() >= count || found_.size() == points.size())
+      break;
+  }
+  values_.resize(found_.size());
+  spare_.resize(found_.size());
+  for (std::size_t k = 0; k < found_.size(); ++k)
+    values_[k] = found_[k].first;
   const double farthest =
       orderStatistic(values_.data(), spare_.data(), values_.size(), count - 1);
-  near_enough_ = WIDER * farthest;
+  found_.erase(std::remove_if(found_.begin(),
+                              found_.end(),
+                              [&](const auto& f) { return f.first > farthest; }),
+               found_.end());
+  for (auto& f : found_)
+    f.second = grid_.given(f.second);
+  std::sort(found_.begin(), found_.end());
   near_.clear();
-  const auto take = [&](const auto& wanted) {
-    for (std::size_t k = 0; k < found_.size() && near_.size() < count; ++k)
-      if (wanted(distances_[k]))
-        near_.push_back(columns_[found_[k]]);
-  };
-  take([farthest](double d) { return d < farthest; });
-  take([farthest](double d) { return d == farthest; });
+  for (std::size_t k = 0; k < count; ++k)
+    near_.push_back(Eigen::Index(found_[k].second) * stride_);
+  // a ball that holds copies of one point grows from something
+  radius_ = std::max(std::sqrt(WIDER * farthest), SMALLEST * grid_.cell());
   return near_;
+}
+
+double Neighbourhood::reach() const {
+  return std::sqrt(found_[near_.size() - 1].first);
 }
 
 double LocalQuadric::scatter() const {

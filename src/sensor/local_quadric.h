@@ -2,37 +2,33 @@
 // Private. Neighbours of points and the curved surfaces through them.
 #pragma once
 
+#include "util/point_grid.h"
+
 #include <Eigen/Core>
 
-#include <limits>
+#include <utility>
 #include <vector>
 
 namespace pcl_sq::detail {
 
-/** \brief Nearest neighbours among every stride-th point.
- *
- * The points are kept in their order along the longest side of their box: a search
- * looks at a slab of them. */
+/** \brief Nearest neighbours among every stride-th point. */
 class Neighbourhood {
 public:
-  Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride);
+  explicit Neighbourhood(const Eigen::Matrix3Xd& points, Eigen::Index stride = 1);
 
-  /** \brief Columns of the \a count points nearest to the i-th one, of which there are
-   * as many. */
+  /** \brief Columns of the \a count points nearest to the i-th one, nearest first, of
+   * which there are as many; the i-th itself is one where the stride takes it. */
   const std::vector<Eigen::Index>& of(Eigen::Index i, std::size_t count);
+  /** \brief Distance of the last of of(). */
+  double reach() const;
 
 private:
-  /** \brief Points nearer to a place than a squared distance. */
-  void collect(const Eigen::Vector3d& place, double near_enough);
-
   const Eigen::Matrix3Xd& points_;
-  int axis_ = 0;
-  std::vector<Eigen::Index> columns_; ///< in order along the axis
-  std::vector<double> along_;         ///< their coordinate on the axis
-  Eigen::Matrix3Xd sorted_;           ///< themselves
-  double near_enough_ = std::numeric_limits<double>::infinity();
-  std::vector<double> distances_;  ///< squared, of what was found
-  std::vector<std::size_t> found_; ///< places in the order
+  Eigen::Index stride_;
+  PointGrid grid_;
+  double radius_ = 0.0; ///< of the ball that is searched first
+  std::vector<std::pair<double, std::size_t>>
+      found_; ///< squared distances, in the grid
   std::vector<double> values_, spare_;
   std::vector<Eigen::Index> near_;
 };

@@ -168,8 +168,11 @@ inline constexpr double SMOOTH = 0.2;
 /// [1] that quantile of scatters of NEIGHBOURS points of one noise, over their middle;
 /// chi-squared
 inline constexpr double OF_SMOOTH = 0.89;
-/// [points] of which the scatter is taken; budget
+/// [points] of which the scatter is taken; budget: noise is known to 7 %
 inline constexpr std::ptrdiff_t LOOKED_AT = 200;
+/// [points] of a whole cloud, in which a point's neighbours reach a thin wall's other
+/// side; budget
+inline constexpr std::ptrdiff_t WALL_POINTS = 5000;
 /// [1] of doubled sheets from which on points are those of two sides: in one view they
 /// are chance; chosen
 inline constexpr double TWO_SIDES = 0.15;

@@ -113,12 +113,6 @@ inline constexpr double JOINT = 6.0;
 inline constexpr std::size_t MOST = 1000;
 } // namespace stand_off
 
-namespace exposed_area {
-/// [1] first-order distance over the reach, beyond which a place outside is sure to be:
-/// of a convex body it is never too large; geometry
-inline constexpr double FARTHER = 2.0;
-} // namespace exposed_area
-
 namespace fit_object {
 /// [-2 ln] of the score, for one more part; odds of 150 to 1
 inline constexpr double MIN_GAIN = 10.0;
@@ -154,8 +148,6 @@ inline constexpr double SENSOR_ERROR = 7e-4;
 inline constexpr int MOST_IN_VIEW = 6;
 /// [parts] the same in a whole cloud; budget
 inline constexpr int MOST_ALL_ROUND = 16;
-/// [points] at which noise is measured; it is known to 7 %
-inline constexpr std::ptrdiff_t NOISE_SAMPLES = 200;
 /// [px] by which measurements lie beside their pixels: a matching window's nearer side,
 /// lateral noise; sensors
 inline constexpr double SIDEWAYS = 0.5;
@@ -176,6 +168,25 @@ inline constexpr int MARGIN = 2;
 inline constexpr double INSET = 0.2;
 } // namespace outline_gaps
 
+namespace stalk {
+/// [-2 ln] odds of 10 to 1 against one: one place is looked at, the likeliest, not many
+/// cuts; odds
+inline constexpr double ODDS = 4.6;
+/// [parameters] of a rod: two ends in the image, depth, slope, radius; geometry
+inline constexpr int PARAMETERS = 7;
+/// [points] that tell how far away it is by their median
+inline constexpr std::size_t FEWEST = 8;
+/// [1] length over width of what is a stump, whose longer axis says nothing; chosen
+inline constexpr double STUMP = 1.5;
+/// [1] tangent of the angle by which it leaves the body askew, a deviation; household
+/// things
+inline constexpr double ASKEW = 0.5;
+/// [1] largest tangent of its slope to the image: 60 degrees; steeper it hides itself
+inline constexpr double STEEPEST = 1.7;
+/// [1] exponent of its rounded ends; that of the paper's boxes
+inline constexpr double ROUNDED = 0.2;
+} // namespace stalk
+
 namespace split_view {
 /// [1] cost per observation of a part that needs no cut; chosen; the noise's share is 1
 inline constexpr double GOOD_FIT = 1.6;
@@ -186,8 +197,6 @@ inline constexpr double QUICK_FACTOR = 1.5;
 } // namespace split_view
 
 namespace union_score {
-/// [sigma] from which on a point costs the same, to the last digit; Gauss: 2e-19
-inline constexpr double OUTLYING = 9.0;
 /// [1] spacings to the nearest of points that are spread evenly; exp(-pi 2^2): 3e-6
 inline constexpr double FARTHEST = 2.0;
 /// [sigma] between surfaces that are one; chosen
@@ -198,6 +207,8 @@ inline constexpr double SLACK = 0.02;
 /// [size] by which it may then still leave it and be a part: beyond the points is
 /// nothing; chosen
 inline constexpr double BEYOND = 0.05;
+/// [-2 ln] of a point, that a body beyond costs at least: as an outlier
+inline constexpr double OUTSIDE = shared::MAX_COST;
 /// [size] of the box's sides; chosen
 inline constexpr double BOX_SIGMA = 0.005;
 } // namespace union_score
@@ -222,10 +233,15 @@ inline constexpr double EVEN = 0.5;
 namespace whole_search {
 /// [cuts] of a part that are remembered; budget
 inline constexpr std::size_t KEPT = 3;
+/// [cuts] of a part that are scored, of those that quick fits describe best; budget
+inline constexpr std::size_t SCREENED = 8;
+/// [1] of a part's points that come or go before its cuts are looked for again; the
+/// margin in which none is
+inline constexpr double FEW = 0.05;
 /// [cuts, joins] best of all parts, that are fitted in full; budget
 inline constexpr std::size_t TRIED = 3;
 /// [rounds] of assigning points and fitting again; budget
-inline constexpr int ROUNDS = 3;
+inline constexpr int ROUNDS = 8;
 /// [sweeps] over all numbers of parts, to more and back to fewer; budget
 inline constexpr int SWEEPS = 2;
 /// [parts] beyond the best number, that are tried: one cut of a handle with two corners

@@ -192,8 +192,9 @@ namespace fit_lid {
 inline constexpr double DEEPEST = 0.25;
 /// [radius] on the lid, clear of the rim; chosen
 inline constexpr double WITHIN = 0.85;
-/// [1] of the points, that are a lid; chosen
-inline constexpr double LEAST = 0.05;
+/// [points] that tell how deep a lid lies by their median; whether it is one is told by
+/// the criterion
+inline constexpr std::size_t LEAST = 5;
 /// [rounds] of lid and body in turn; budget
 inline constexpr int ROUNDS = 3;
 /// [steps] of a fit; budget

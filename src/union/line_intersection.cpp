@@ -2,9 +2,7 @@
 #include "pcl_sq/line_intersection.h"
 
 #include "geometry/gauge.h"
-
-#include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
+#include "union/deformed_line.h"
 
 #include <limits>
 
@@ -74,80 +72,6 @@ bool approach(const Superquadric& s,
   return true;
 }
 
-/** \brief At how many places a line is looked at: often enough to meet a thin bent rod.
- */
-int samplesAlong(const Superquadric& s) {
-  constexpr double AT_LEAST = 12.0, AT_MOST = 96.0;
-  if (!s.isBent())
-    return int(AT_LEAST);
-  const double rod = s.semi_axes.minCoeff();
-  return int(std::clamp(2.0 * s.halfSizes().norm() / rod, AT_LEAST, AT_MOST));
-}
-
-/** \brief Where a line comes deepest into a tapered or bent body, between two places;
- * the gauge may have several minima along a line. */
-double deepest(const Superquadric& s,
-               const Eigen::Vector3d& origin,
-               const Eigen::Vector3d& direction,
-               const LineInterval& range,
-               double& gauge) {
-  constexpr int PRECISION_BITS = 26;
-  const int samples = samplesAlong(s);
-  const auto at = [&](double t) { return s.gauge(origin + t * direction); };
-  const double step = (range.leave - range.enter) / samples;
-  double best = range.enter;
-  gauge = at(best);
-  for (int i = 1; i <= samples; ++i) {
-    const double t = range.enter + i * step, value = at(t);
-    if (value < gauge) {
-      gauge = value;
-      best = t;
-    }
-  }
-  if (gauge <= 1.0) // an inside place is all that is wanted
-    return best;
-  const auto refined = boost::math::tools::brent_find_minima(
-      at, best - step, best + step, PRECISION_BITS);
-  if (refined.second < gauge) {
-    gauge = refined.second;
-    best = refined.first;
-  }
-  return best;
-}
-
-/** \brief The surface between a place inside of a tapered or bent body and one
- * outside: the first one, where a line leaves a bent body and enters it again. */
-double crossing(const Superquadric& s,
-                const Eigen::Vector3d& origin,
-                const Eigen::Vector3d& direction,
-                double inside,
-                double outside) {
-  if (s.isBent()) {
-    const int samples = samplesAlong(s);
-    const double end = outside, step = (end - inside) / samples;
-    for (int i = 1; i <= samples; ++i) {
-      outside = i < samples ? inside + step : end;
-      if (s.gauge(origin + outside * direction) > 1.0)
-        break;
-      inside = outside;
-    }
-  }
-  const auto beyond = [&](double t) { return s.gauge(origin + t * direction) - 1.0; };
-  const double first = beyond(inside), last = beyond(outside);
-  if (!(first < 0.0 && last > 0.0)) // grazed, or the box touches
-    return last > 0.0 ? inside : outside;
-  std::uintmax_t most = 60;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(beyond,
-                                        std::min(inside, outside),
-                                        std::max(inside, outside),
-                                        inside < outside ? first : last,
-                                        inside < outside ? last : first,
-                                        boost::math::tools::eps_tolerance<double>(),
-                                        most);
-  return inside < outside ? low : high;
-}
-
 } // namespace
 
 bool intersectLineBox(const Superquadric& s,
@@ -169,11 +93,11 @@ bool intersectWhole(const Superquadric& s,
     return false;
   if (s.isDeformed()) {
     double gauge;
-    const double inside = deepest(s, origin, direction, box, gauge);
+    const double inside = detail::deepest(s, origin, direction, box, gauge);
     if (!(gauge <= 1.0))
       return false;
-    interval.enter = crossing(s, origin, direction, inside, box.enter);
-    interval.leave = crossing(s, origin, direction, inside, box.leave);
+    interval.enter = detail::crossing(s, origin, direction, inside, box.enter);
+    interval.leave = detail::crossing(s, origin, direction, inside, box.leave);
     return true;
   }
   LineInterval found = box;
@@ -182,6 +106,14 @@ bool intersectWhole(const Superquadric& s,
     return false;
   interval = found;
   return true;
+}
+
+/** \brief The body that reaches on beyond the rim, filled. */
+Superquadric wholeOf(const Superquadric& s) {
+  Superquadric whole = s;
+  whole.rim = 1.0;
+  whole.wall = 0.0;
+  return whole;
 }
 
 /** \brief Leaves what of an interval lies below the rim. \return whether anything does
@@ -211,15 +143,30 @@ bool intersectLine(const Superquadric& s,
                    LineInterval& interval) {
   if (!s.isCut())
     return intersectWhole(s, origin, direction, interval);
-  Superquadric whole = s;
-  whole.rim = 1.0;
-  whole.wall = 0.0;
   LineInterval found;
-  if (!intersectWhole(whole, origin, direction, found) ||
+  if (!intersectWhole(wholeOf(s), origin, direction, found) ||
       !clipAtRim(s, origin, direction, found))
     return false;
   interval = found;
   return true;
+}
+
+bool meetsRay(const Superquadric& s,
+              const Eigen::Vector3d& origin,
+              const Eigen::Vector3d& direction) {
+  LineInterval range;
+  if (!intersectLineBox(s, origin, direction, range) ||
+      (s.isCut() && !clipAtRim(s, origin, direction, range)) || range.leave < 0.0)
+    return false;
+  range.enter = std::max(range.enter, 0.0);
+  const Superquadric whole = wholeOf(s);
+  if (s.isDeformed()) {
+    double gauge;
+    detail::deepest(whole, origin, direction, range, gauge);
+    return gauge <= 1.0;
+  }
+  return approach(
+      whole, toUnitCube(whole, origin, direction), 1.0, range.leave, range.enter);
 }
 
 namespace {
@@ -232,13 +179,13 @@ bool firstHitOfBent(const Superquadric& s,
   LineInterval box;
   if (!intersectLineBox(s, origin, direction, box) || box.leave < 0.0)
     return false;
-  const int samples = samplesAlong(s);
+  const int samples = detail::samplesAlong(s);
   const double step = (box.leave - std::max(box.enter, 0.0)) / samples;
   double outside = std::max(box.enter, 0.0);
   for (int i = 0; i <= samples; ++i) {
     const double t = std::max(box.enter, 0.0) + i * step;
     if (s.gauge(origin + t * direction) <= 1.0) {
-      at = i > 0 ? crossing(s, origin, direction, t, outside) : t;
+      at = i > 0 ? detail::crossing(s, origin, direction, t, outside) : t;
       return true;
     }
     outside = t;

@@ -29,9 +29,13 @@ PointGrid::PointGrid(std::vector<Eigen::Vector3d> points, double cell) : cell_(c
   for (std::size_t i = 0; i < cells; ++i)
     begins_[i + 1] += begins_[i];
   points_.resize(points.size());
+  given_.resize(points.size());
   std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points_[next[cell_of[i]]++] = points[i];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t place = next[cell_of[i]]++;
+    points_[place] = points[i];
+    given_[place] = i;
+  }
 }
 
 Eigen::Vector3i PointGrid::cellOf(const Eigen::Vector3d& point) const {
@@ -41,33 +45,17 @@ Eigen::Vector3i PointGrid::cellOf(const Eigen::Vector3d& point) const {
       .cast<int>();
 }
 
-template <typename Predicate>
-bool PointGrid::any(const Eigen::AlignedBox3d& region,
-                    const Predicate& predicate) const {
-  if (empty() || !bounds_.intersects(region))
-    return false;
-  const Eigen::Vector3i low = cellOf(region.min()), high = cellOf(region.max());
-  for (int z = low.z(); z <= high.z(); ++z)
-    for (int y = low.y(); y <= high.y(); ++y)
-      for (std::size_t i = begins_[index(low.x(), y, z)];
-           i < begins_[index(high.x(), y, z) + 1];
-           ++i)
-        if (predicate(points_[i]))
-          return true;
-  return false;
-}
-
 bool PointGrid::anyIn(const OrientedBox& box, double margin) const {
   Eigen::AlignedBox3d region = box.boundingBox();
   region.min().array() -= 2.0 * margin;
   region.max().array() += 2.0 * margin;
-  return any(region, [&](const Eigen::Vector3d& p) { return box.contains(p, margin); });
+  return any(region, [&](std::size_t k) { return box.contains(points_[k], margin); });
 }
 
 bool PointGrid::anyNear(const Eigen::Vector3d& center, double radius) const {
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius);
-  return any({center - reach, center + reach}, [&](const Eigen::Vector3d& p) {
-    return (p - center).squaredNorm() <= radius * radius;
+  return any({center - reach, center + reach}, [&](std::size_t k) {
+    return (points_[k] - center).squaredNorm() <= radius * radius;
   });
 }
 

@@ -25,7 +25,18 @@ void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& 
 /** \brief All families from the best general fit. */
 std::vector<ShapeCandidate> fitShapes(const ViewProblem& problem, const Trial& general);
 
-/** \brief Last iterations of the chosen family with all points. */
-void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen);
+/** \brief Last iterations of the chosen family with other points of the problem. */
+void fitAgain(const ViewProblem& problem,
+              const UnitPoints& points,
+              double sigma,
+              ShapeCandidate& chosen);
+
+/** \brief The family that a fit has chosen, from where it is, to points that are nearly
+ * the same: the other families are not asked again. A sample of the points is enough.
+ * \param[in] fit of a known noise, options.noise */
+ViewFit fitSameFamily(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                      const ViewEvidence& evidence,
+                      const ViewFitOptions& options,
+                      ViewFit fit);
 
 } // namespace pcl_sq::detail

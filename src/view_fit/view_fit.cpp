@@ -127,7 +127,7 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
       result.candidates.end(),
       [](const ShapeCandidate& a, const ShapeCandidate& b) { return a.bic < b.bic; });
   if (options.all_points)
-    fitAllPoints(problem, general.front().sigma, result.candidates.front());
+    fitAgain(problem, problem.all(), general.front().sigma, result.candidates.front());
   for (ShapeCandidate& c : result.candidates)
     c.model = problem.frame().toCloud(c.model);
   result.chosen = result.candidates.front();
@@ -143,6 +143,26 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   fit.points = problem.all().size();
   fit.sigma = result.noise;
   return result;
+}
+
+ViewFit fitSameFamily(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                      const ViewEvidence& evidence,
+                      const ViewFitOptions& options,
+                      ViewFit fit) {
+  ViewProblem problem;
+  if (!problem.prepare(points, evidence, options)) {
+    fit.fit.termination = Termination::TOO_FEW_POINTS;
+    return fit;
+  }
+  ShapeCandidate& chosen = fit.candidates.front();
+  chosen = fit.chosen;
+  chosen.model = problem.frame().toUnit(chosen.model);
+  fitAgain(problem, problem.medium(), problem.noise(), chosen);
+  chosen.model = problem.frame().toCloud(chosen.model);
+  fit.chosen = chosen;
+  fit.fit.model = chosen.model;
+  fit.fit.points = problem.all().size();
+  return fit;
 }
 
 void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit) {

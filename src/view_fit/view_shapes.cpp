@@ -202,17 +202,20 @@ Trial bestDescription(const ViewProblem& problem, Trial best) {
 
 } // namespace
 
-void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chosen) {
+void fitAgain(const ViewProblem& problem,
+              const UnitPoints& points,
+              double sigma,
+              ShapeCandidate& chosen) {
   if (chosen.shape == ShapeClass::TAPERED) {
-    fitTaperAllPoints(problem, sigma, chosen);
+    fitTaperAgain(problem, points, sigma, chosen);
     return;
   }
   if (chosen.shape == ShapeClass::BENT) {
-    fitBentAllPoints(problem, sigma, chosen);
+    fitBentAgain(problem, points, sigma, chosen);
     return;
   }
   if (chosen.shape == ShapeClass::VESSEL) {
-    fitVesselAllPoints(problem, sigma, chosen);
+    fitVesselAgain(problem, points, sigma, chosen);
     return;
   }
   Trial t;
@@ -222,8 +225,7 @@ void fitAllPoints(const ViewProblem& problem, double sigma, ShapeCandidate& chos
   for (int k = 0; k < 3 && chosen.upright; ++k)
     if (std::abs(t.model.rotation.col(k).dot(problem.up())) > UPRIGHT)
       space = standing(space, k);
-  t = problem.minimise(
-      t, problem.all(), kernels::Residual::FOOT_POINT, ITERATIONS, space);
+  t = problem.minimise(t, points, kernels::Residual::FOOT_POINT, ITERATIONS, space);
   chosen.bic += t.cost - chosen.cost;
   chosen.cost = t.cost;
   chosen.model = t.model;

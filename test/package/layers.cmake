@@ -27,7 +27,7 @@ list(JOIN elements "|" elements)
 file(GLOB core_headers "${public}/*.h" "${public}/impl/*.hpp")
 # from the lowest folder to the highest; each includes those before it only
 set(folders util tuning kernels geometry union mesh solver fit paper sensor table observe
-  view_problem families view_fit pieces parts quality grasp io export elements patches scene)
+  view_problem families view_fit pieces outlines parts quality grasp io export elements patches scene)
 set(core_files "")
 set(above ${folders})
 foreach(folder IN LISTS folders)

@@ -89,12 +89,11 @@ toTree(const boost::property_tree::ptree& node, Bounds& bounds, int depth = 0) {
 int xmlDepth(const std::string& text) {
   int depth = 0, deepest = 0;
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
-    if (text[i] == '<' && text[i + 1] == '/')
+    if ((text[i] == '<' && text[i + 1] == '/') ||
+        (text[i] == '/' && text[i + 1] == '>'))
       --depth;
     else if (text[i] == '<' && text[i + 1] != '?' && text[i + 1] != '!')
       deepest = std::max(deepest, ++depth);
-    else if (text[i] == '/' && text[i + 1] == '>')
-      --depth;
   return deepest;
 }
 

@@ -6,15 +6,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace pcl_sq {
 namespace {
@@ -38,7 +36,7 @@ struct Pipe {
   Pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-      fail(std::strerror(errno));
+      fail(std::generic_category().message(errno));
     read_end = ends[0];
     write_end = ends[1];
   }
@@ -98,7 +96,7 @@ pid_t spawnServer(const Pipe& pipe) {
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
-    fail(std::string("Xvfb: ") + std::strerror(error));
+    fail(std::string("Xvfb: ") + std::generic_category().message(error));
   return pid;
 }
 

@@ -34,7 +34,7 @@ Scene estimateTin(double depth) {
 } // namespace
 
 TEST(LidFit, ATinIsRoundAndAsHighAsItsRim) {
-  for (const double depth : {0.0, 0.005}) {
+  for (const double depth : {0.0, 0.005, 0.008}) {
     const Scene scene = estimateTin(depth);
     ASSERT_EQ(scene.objects.size(), 1u) << scene.failure;
     ASSERT_EQ(scene.objects[0].model.size(), 1u);

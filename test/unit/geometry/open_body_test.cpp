@@ -254,3 +254,38 @@ TEST(OpenBody, UnionOfAMugAndItsHandleHasAClosedMeshWithAnInside) {
   EXPECT_NEAR(
       volume, mug.materialVolume() + handle.volume(), 0.05 * mug.materialVolume());
 }
+
+TEST(OpenBody, ASharpOneThatIsCutLowIsTheSameCutNearItsTop) {
+  for (const double rim : {0.0, 0.47, 0.83}) {
+    Superquadric mug;
+    mug.semi_axes = {0.041, 0.041, 0.057};
+    mug.epsilon1 = 0.08;
+    mug.kx = mug.ky = 0.07;
+    mug.rim = rim;
+    mug.wall = 0.004;
+    mug.center = {0.1, -0.2, 0.8};
+    mug.rotation = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized())
+                       .toRotationMatrix();
+    const Superquadric same = detail::withRimNearTop(mug);
+    EXPECT_TRUE(same.isValid());
+    EXPECT_GT(same.rim, 0.85) << rim;
+    EXPECT_DOUBLE_EQ(same.wall, mug.wall);
+    for (const double sign : {-1.0, 1.0}) {
+      const Eigen::Vector3d up = sign * mug.rotation.col(2);
+      EXPECT_NEAR(up.dot(same.center) + same.support(up),
+                  up.dot(mug.center) + mug.support(up),
+                  1e-9);
+    }
+    for (const Eigen::Vector3d& p : meshSuperquadric(same, 24).vertices)
+      EXPECT_LT((mug.closestPoint(p) - p).norm(), 0.0006) << rim;
+  }
+}
+
+TEST(OpenBody, ARoundedOneIsLeftAsItIs) {
+  Superquadric bowl;
+  bowl.semi_axes = {0.08, 0.08, 0.05};
+  bowl.rim = 0.1;
+  bowl.wall = 0.004;
+  EXPECT_EQ(detail::withRimNearTop(bowl).rim, bowl.rim);
+  EXPECT_EQ(detail::withRimNearTop(bowl).semi_axes, bowl.semi_axes);
+}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/taper.h"
-#include "parts/exposed_area.h"
 #include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/line_intersection.h"
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/oriented_box.h"
+#include "union/exposed_area.h"
 
 #include "tapered.h"
 

@@ -31,10 +31,7 @@ TEST(OneView, WithoutAnyNoiseACurvedSurfaceIsNoThinWall) {
   // curvature is then all that parts points from their planes
   for (const Eigen::Index step : {1, 3, 7}) {
     const Eigen::Matrix3Xf object = pointsOfACan(0.0, step);
-    EXPECT_LT(
-        detail::doubled(detail::sheetsOf(object.cast<double>(), object.cols() / 200)),
-        0.03)
-        << step;
+    EXPECT_LT(detail::doubled(detail::sheetsOf(object.cast<double>())), 0.03) << step;
     ObservedObject observed;
     ASSERT_TRUE(observeObject(object, int(object.cols()), 1, {}, {}, observed));
     EXPECT_EQ(observed.outline, OutlineSource::POINTS) << step;

@@ -2,8 +2,8 @@
 #include "fit_scene.h"
 
 #include "observe/sheets.h"
-#include "parts/exposed_area.h"
 #include "parts/union_score.h"
+#include "union/exposed_area.h"
 #include "util/cloud_graph.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +66,23 @@ Eigen::Matrix3Xd pan() {
     const double turn = random.uniform(0.0, 6.283);
     points.col(i) << radius * std::cos(turn), radius * std::sin(turn),
         0.03 * std::pow(radius / 0.12, 4) + (i % 2 == 0 ? 0.0 : 0.004);
+  }
+  return points;
+}
+
+/** \brief A dish: the lower part of a hollow ball, open above. */
+Eigen::Matrix3Xd dish(int count, double wall, unsigned seed) {
+  constexpr double RADIUS = 0.085, HEIGHT = 0.06;
+  Random random(seed);
+  Eigen::Matrix3Xd points(3, count);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double inset = random.uniform(0.0, 1.0) < 0.5 ? 0.0 : wall;
+    const double radius = RADIUS - inset;
+    const double z =
+        random.uniform(inset, HEIGHT) - RADIUS; // a ball's area is even in z
+    const double across = std::sqrt(radius * radius - z * z);
+    const double turn = random.uniform(0.0, 6.283);
+    points.col(i) << across * std::cos(turn), across * std::sin(turn), z;
   }
   return points;
 }
@@ -237,9 +254,54 @@ TEST(WholeCloud, CutsOfABodyGainWhatItLeavesUnexplainedAndNoMore) {
   EXPECT_GT(gainOf(thinner), right + 0.2 * n);
 }
 
+TEST(WholeCloud, ABodyThatLeavesTheBoxOfThePointsMayBeCutAndCutsOfItCompare) {
+  MultiSuperquadric one;
+  one.parts = {boxAt({0.05, 0.04, 0.08}, Eigen::Vector3d::Zero())};
+  const ObservedObject observed = observe(outsideOf(one, 3e4), Coverage::COMPLETE);
+  const ObjectFitOptions options;
+  const detail::PieceContext context{observed, options, 5e-4, {}, {}};
+  const auto longer = [&](double share) {
+    detail::Part part;
+    part.piece.fit.fit.model = one.parts[0];
+    part.piece.fit.fit.model.semi_axes.z() *= share;
+    part.piece.fit.fit.termination = Termination::STEP_TOO_SMALL;
+    detail::traceAgain(context, part);
+    return part;
+  };
+  const detail::Part within = longer(1.0), out = longer(1.5), farther = longer(1.8);
+  EXPECT_LT(detail::mostGain(context, within), 1e6);
+  EXPECT_GT(detail::mostGain(context, out), 1e6);
+  const auto score = [&](const detail::Part& part) {
+    return detail::scoreOf(context, {&part});
+  };
+  EXPECT_GT(score(out), score(within) + observed.effective_points);
+  EXPECT_GT(score(farther), score(out) + 1.0);
+  EXPECT_LT(score(farther), 1e8);
+}
+
+TEST(WholeCloud, ADishFromAllRoundIsOneOpenVesselInEverySampling) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const MultiSuperquadric model =
+        fitObject(observe(dish(5000, 0.004, seed), Coverage::COMPLETE)).model;
+    ASSERT_EQ(model.size(), 1u);
+    EXPECT_NEAR(model.parts[0].wall, 0.004, 0.001);
+    EXPECT_NEAR(model.boundingBox().sizes().minCoeff(), 0.06, 0.003);
+  }
+}
+
+TEST(WholeCloud, WallsShowInDenseCloudsToo) {
+  const auto shows = [](const Eigen::Matrix3Xd& points) {
+    return detail::surfaceOf(points).two_sided;
+  };
+  EXPECT_TRUE(shows(dish(5000, 0.004, 1)));
+  EXPECT_TRUE(shows(dish(60000, 0.004, 1)));
+  EXPECT_FALSE(shows(dish(5000, 0.0, 1)));
+  EXPECT_FALSE(shows(dish(60000, 0.0, 1)));
+}
+
 TEST(Coverage, APanFromAllRoundIsNoViewUnlessTheUserSaysSo) {
   const Eigen::Matrix3Xd points = pan();
-  EXPECT_TRUE(detail::hasTwoSides(points));
+  EXPECT_TRUE(detail::surfaceOf(points).two_sided);
   EXPECT_FALSE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_TRUE(observe(points, Coverage::ONE_SIDED).hasCamera());
 }
@@ -253,7 +315,7 @@ TEST(Coverage, HalfABallIsAViewUnlessTheUserSaysItIsComplete) {
     p.z() = std::abs(p.z());
     points.col(i) = (0.1 + 0.001 * random.normal()) * p;
   }
-  EXPECT_FALSE(detail::hasTwoSides(points));
+  EXPECT_FALSE(detail::surfaceOf(points).two_sided);
   EXPECT_TRUE(observe(points, Coverage::AUTOMATIC).hasCamera());
   EXPECT_FALSE(observe(points, Coverage::COMPLETE).hasCamera());
 }

@@ -173,6 +173,38 @@ TEST(LineIntersection, EndsLieOnTheSurfaceAndTheMiddleInside) {
   EXPECT_GT(hits, 500);
 }
 
+TEST(LineIntersection, ARayMeetsABodyThatOneOfItsPlacesIsIn) {
+  Random random(113);
+  int met = 0, missed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Superquadric whole = random.superquadric();
+    if (i % 2 == 1)
+      whole.kx = random.uniform(-0.8, 0.8);
+    Superquadric s = whole;
+    if (i % 4 > 1)
+      s.rim = random.uniform(-0.6, 0.9);
+    const Eigen::Vector3d origin = random.pointNear(s), direction = random.direction();
+    LineInterval box;
+    double least = 1e300; // gauge along the ray, below the rim
+    if (intersectLineBox(whole, origin, direction, box))
+      for (int k = 0; k <= 500; ++k) {
+        const double t = box.enter + k * (box.leave - box.enter) / 500;
+        const Eigen::Vector3d p = origin + t * direction;
+        if (t >= 0.0 && s.toLocal(p).z() <= s.rimHeight() * s.semi_axes.z())
+          least = std::min(least, whole.gauge(p));
+      }
+    const bool meets = meetsRay(s, origin, direction);
+    if (least < 1.0) {
+      EXPECT_TRUE(meets) << i;
+    } else if (least > 1.1) { // nor is one between two of the places
+      EXPECT_FALSE(meets) << i;
+    }
+    ++(meets ? met : missed);
+  }
+  EXPECT_GT(met, 200);
+  EXPECT_GT(missed, 300);
+}
+
 TEST(LineIntersection, TheBoxContainsTheInterval) {
   Random random(112);
   for (int i = 0; i < 500; ++i) {

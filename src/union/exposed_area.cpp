@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/exposed_area.h"
+#include "union/exposed_area.h"
 
 #include "geometry/taper.h"
 #include "pcl_sq/fit_superquadric.h"
 #include "pcl_sq/triangle_mesh.h"
-#include "tuning/parts_tuning.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -36,25 +35,13 @@ SurfaceCells meshCells(const Superquadric& part) {
   return cells;
 }
 
-using namespace tuning::exposed_area;
-
-/** \brief Radius of a ball within a tapered body: that of the straight one, over what
- * straightening stretches, by the narrowest section and by the shear of the sides. */
-double ballWithin(const Superquadric& s) {
-  const double narrowest = 1.0 - std::max(std::abs(s.kx), std::abs(s.ky));
-  const double shear =
-      (std::abs(s.kx) * s.semi_axes.x() + std::abs(s.ky) * s.semi_axes.y()) /
-      s.semi_axes.z();
-  return s.semi_axes.minCoeff() * narrowest / (1.0 + shear);
-}
-
 } // namespace
 
 SurfaceCells surfaceCells(const Superquadric& part) {
   if (part.isCut())
     return meshCells(part);
   SurfaceCells cells;
-  constexpr Eigen::Index COUNT = 8 * OCTANT;
+  constexpr Eigen::Index COUNT = Eigen::Index(8) * OCTANT;
   cells.middles.resize(3, COUNT);
   cells.areas.resize(COUNT);
   // Gauss's nodes are dense at the cube's edges, where small exponents bend the surface
@@ -106,25 +93,6 @@ void keepNearer(const Superquadric& body,
     const Eigen::Vector3d outside = (local.cwiseAbs() - body.halfSizes()).cwiseMax(0.0);
     if (outside.squaredNorm() <= reach[i] * reach[i])
       near.push_back(i);
-  }
-  if (body.isTapered() && !body.isCut() && !body.isBent()) {
-    // foot points of tapered bodies are dear: only of places that may be near enough
-    const double ball = ballWithin(body);
-    const auto far = [&](Eigen::Index i) {
-      const Place place = placeOf(body, turn * (points.col(i) - body.center));
-      const double gauge = std::exp(place.gauge.value);
-      if (gauge < 1.0) {
-        // the body holds a ball around the place: (1 - G) times the one in its middle
-        const double depth = (1.0 - gauge) * ball;
-        if (depth < reach[i])
-          return false;
-        distances[i] = std::min(distances[i], -depth);
-        return true;
-      }
-      const double slope = logGradient(body, place).norm();
-      return gauge - 1.0 > FARTHER * reach[i] * gauge * slope;
-    };
-    near.erase(std::remove_if(near.begin(), near.end(), far), near.end());
   }
   Eigen::Matrix3Xd nearby(3, static_cast<Eigen::Index>(near.size()));
   for (std::size_t k = 0; k < near.size(); ++k)

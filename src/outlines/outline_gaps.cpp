@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/outline_gaps.h"
+#include "outlines/outline_gaps.h"
 
-#include "pcl_sq/line_intersection.h"
+#include "outlines/outline_cost.h"
 #include "tuning/parts_tuning.h"
 #include "util/parallel_for.h"
 
@@ -14,7 +14,6 @@ namespace pcl_sq::detail {
 
 namespace {
 
-using namespace tuning::shared;
 using namespace tuning::outline_gaps;
 
 /** \brief The gap's box along its principal axes. */
@@ -51,28 +50,6 @@ Cut lineCut(const PieceContext& context,
   line.offset = offset;
   const TangentPlane plane = tangentPlane(context.observed.camera, line, 1.0, 1.0);
   return {plane.normal, plane.offset};
-}
-
-/** \brief The parts, larger or smaller by a margin on all sides. */
-std::vector<Superquadric> grown(const std::vector<Piece>& pieces, double margin) {
-  std::vector<Superquadric> parts;
-  for (const Piece& piece : pieces) {
-    Superquadric s = piece.fit.fit.model;
-    s.semi_axes = (s.semi_axes.array() + margin).max(0.2 * s.semi_axes.array());
-    parts.push_back(s);
-  }
-  return parts;
-}
-
-bool meet(const std::vector<Superquadric>& parts,
-          const PinholeCamera& camera,
-          const Eigen::Vector2d& pixel) {
-  const Eigen::Vector3d ray = camera.ray(pixel);
-  LineInterval chord;
-  return std::any_of(parts.begin(), parts.end(), [&](const Superquadric& s) {
-    return intersectLineBox(s, camera.center, ray, chord) &&
-           intersectLine(s, camera.center, ray, chord);
-  });
 }
 
 /** \brief The object as the four pieces around its gap: a body, and three sides of a
@@ -113,28 +90,6 @@ std::vector<Piece> piecesAroundGap(const PieceContext& context, const Piece& who
     if (piece.points.empty())
       return {};
   return pieces;
-}
-
-/** \brief Cost of where the outline and that of all parts together contradict each
- * other: of free pixels that they cover, of the object's that they leave. */
-double outlineCost(const PieceContext& context, const std::vector<Piece>& pieces) {
-  const ObservedObject& o = context.observed;
-  const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy); // [m]
-  const double margin = std::max(o.outline_sigma * pixel, TOLERANCE * o.extent);
-  const std::vector<Superquadric> larger = grown(pieces, margin);
-  const std::vector<Superquadric> smaller = grown(pieces, -margin);
-  int contradictions = 0;
-  const CellRect box = boundingRect(o.pixels);
-  for (int y = box.y; y < box.y + box.height; y += STEP)
-    for (int x = box.x; x < box.x + box.width; x += STEP)
-      if (o.pixels(x, y) && o.pixels(x - MARGIN, y) && o.pixels(x + MARGIN, y) &&
-          o.pixels(x, y - MARGIN) && o.pixels(x, y + MARGIN))
-        contradictions += !meet(larger, o.camera, {x, y});
-  for (const Eigen::Vector2d& p : o.gap)
-    if (int(p.x()) % STEP == 0 && int(p.y()) % STEP == 0)
-      contradictions += meet(smaller, o.camera, p);
-  return MAX_COST * contradictions *
-         (o.outline == OutlineSource::MASK ? 1.0 : OF_DEPTH);
 }
 
 /** \brief What the parts leave unexplained, points and outline together. */

@@ -20,8 +20,7 @@ SurfaceCells surfaceCells(const Superquadric& part);
 double exposedArea(const std::vector<Superquadric>& parts);
 
 /** \brief Replaces distances of points by those to a body where they are smaller.
- * Points whose distance to it is sure to exceed their reach may keep theirs; of points
- * deeper in it than their reach that much is sure, no more [m]. */
+ * Points whose distance to it is sure to exceed their reach may keep theirs [m]. */
 void keepNearer(const Superquadric& body,
                 const Eigen::Matrix3Xd& points,
                 const Eigen::ArrayXd& reach,
