@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Real stereo pairs through the whole chain: every pair, every box, judged and shown.
 
-usage: real_pairs.py DATA BIN [--out DIR] [--random N] [--seed S] [--only SET] [OPTION...]
+usage: real_pairs.py DATA BIN [--out DIR] [--random N | --moved N] [--seed S] [--only SET]
+                     [OPTION...]
 
 DATA holds a folder per pair with im0.png, im1.png, calib.txt (Middlebury's format) and
 rois.csv (object,x,y,w,h), and a truth.csv: set,object,kind,a,b,tolerance, extents of the
 object along the left camera's x and y axes [m]. BIN is the folder of the programs; OPTIONs
 go to pcl_sq_stereo. Each box goes through pcl_sq_stereo; --random N takes N random boxes
-instead, half of them anywhere, half of them around an object.
+instead, half of them anywhere, half of them around an object. --moved N takes each box of a
+known size N times, each of its sides moved by -2 to 5 pixels outwards, as other hands draw it.
 
 A model is nonsense where its points lie more than 3 cm off, or a part is thinner than 1 mm
 or longer than 1.5 m. "seen" is the share of the object's pixels that the model covers.
@@ -50,6 +52,15 @@ def surface(part, steps=120):
     kx, ky = part.get("taper", (0, 0))
     p[:, 0] *= kx * p[:, 2] / a[2] + 1
     p[:, 1] *= ky * p[:, 2] / a[2] + 1
+    if "bend" in part:  # z on a circle of this curvature, towards x turned by this angle
+        curvature, angle = part["bend"]
+        c, s = np.cos(angle), np.sin(angle)
+        along, across = p[:, 0] * c + p[:, 1] * s, p[:, 1] * c - p[:, 0] * s
+        rest = 1 / curvature - along
+        turn = p[:, 2] * curvature
+        along = 1 / curvature - rest * np.cos(turn)
+        p = np.stack([along * c - across * s, along * s + across * c,
+                      rest * np.sin(turn)], -1)
     return p @ np.array(part["rotation"]).T + np.array(part["translation"])
 
 
@@ -135,6 +146,14 @@ def random_box(dice, size, boxes):
             int(w * dice.uniform(.6, 1.5)), int(h * dice.uniform(.6, 1.5)))
 
 
+def moved_box(dice, size, box):
+    """Each side moved by -2 to 5 pixels outwards, as far as the image goes."""
+    x, y, w, h = box
+    left, top, right, bottom = (dice.randint(-2, 5) for _ in range(4))
+    x1, y1 = max(0, x - left), max(0, y - top)
+    return (x1, y1, min(size[0], x + w + right) - x1, min(size[1], y + h + bottom) - y1)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawTextHelpFormatter)
@@ -142,6 +161,7 @@ def main():
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, help="folder for models and panels")
     parser.add_argument("--random", type=int, default=0, help="number of random boxes")
+    parser.add_argument("--moved", type=int, default=0, help="draws of each box")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", help="one pair")
     args, options = parser.parse_known_args()
@@ -155,22 +175,27 @@ def main():
     jobs = []
     for folder in folders:
         rows = [(r[0], tuple(map(int, r[1:5]))) for r in read_csv(folder / "rois.csv")[1:]]
-        jobs += [(folder, name, box) for name, box in rows if not args.random]
-        if args.random:
+        size = Image.open(folder / "im0.png").size
+        dice = random.Random(f"{args.seed} {folder.name}")
+        if args.moved:
+            jobs += [(folder, name, f"{name}_moved{i}", moved_box(dice, size, box))
+                     for i in range(args.moved) for name, box in rows
+                     if (folder.name, name) in truths]
+        elif not args.random:
+            jobs += [(folder, name, name, box) for name, box in rows]
+        else:
             boxes = [box for _, box in rows]
-            size = Image.open(folder / "im0.png").size
-            dice = random.Random(f"{args.seed} {folder.name}")
             count = -(-args.random // len(folders))
-            jobs += [(folder, f"random{i}", random_box(dice, size, boxes))
+            jobs += [(folder, "random", f"random{i}", random_box(dice, size, boxes))
                      for i in range(count)]
     right = asked = nonsense = models = unexplained = 0
     tiles = []
-    for folder, name, box in jobs:
-        stem = out / f"{folder.name}_{name}"
+    for folder, name, shown, box in jobs:
+        stem = out / f"{folder.name}_{shown}"
         code, said = run(folder, box, stem, args, options)
         truth = truths.get((folder.name, name))
         asked += truth is not None
-        title = f"{folder.name} {name}"
+        title = f"{folder.name} {shown}"
         if code == 0:
             model = json.loads(pathlib.Path(f"{stem}.json").read_text())
             mask = pathlib.Path(f"{stem}_mask.png")

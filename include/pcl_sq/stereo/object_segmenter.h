@@ -26,6 +26,10 @@ struct PCL_SQ_EXPORTS SegmenterOptions {
   double min_share = 2e-4; ///< smallest object as a share of the image, [0, 1)
   double margin = 0.35; ///< background around the hint, in sides of its box, [0.05, 2]
   double color_radius = 14; ///< tolerance of a seed colour in Lab, [1, 100]
+  /** \brief Focal length times baseline of the pair that the cloud was matched in
+   * [px m]; 0: of a depth camera. Tells what the right camera does not see beside the
+   * object. At least 0 */
+  double disparity_scale = 0.0;
 
   /** \brief Whether every setting is in its range. \param[out] why the first that is
    * not */

@@ -106,6 +106,8 @@ Segment findObject(const StereoPipelineOptions& options, const StereoResult& sce
   ObjectSegmenter segmenter;
   SegmenterOptions settings;
   settings.method = options.segmentation;
+  if (!scene.disparity.empty())
+    settings.disparity_scale = scene.intrinsics.fx * scene.intrinsics.baseline;
   segmenter.setOptions(settings);
   Segment segment;
   bool found = false;

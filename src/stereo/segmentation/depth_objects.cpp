@@ -31,14 +31,6 @@ std::vector<int> sizesOf(const cv::Mat& labels, int count, const cv::Mat& where)
   return sizes;
 }
 
-/** \brief Cells that have a point. */
-cv::Mat finiteCells(const DepthGrid& grid) {
-  cv::Mat known = cv::Mat::zeros(grid.height, grid.width, CV_8U);
-  for (const pcl::index_t i : grid.finite)
-    known.ptr<std::uint8_t>()[i] = 255;
-  return known;
-}
-
 /** \brief The two outermost cells all round. */
 cv::Mat rimOf(const cv::Size& size) {
   cv::Mat rim(size, CV_8U, cv::Scalar(255));
@@ -56,6 +48,18 @@ bool findTable(const DepthGrid& grid, float tolerance, DepthPlane& plane) {
 float heightOver(const DepthPlane& plane, const DepthGrid& grid, pcl::index_t i) {
   const auto& p = (*grid.points)[static_cast<std::size_t>(i)];
   return plane.head<3>().dot(p.getVector3fMap()) + plane[3];
+}
+
+/** \brief Cells that lie on one of some planes or behind it. */
+cv::Mat
+behind(const DepthGrid& grid, const std::vector<DepthPlane>& planes, float tolerance) {
+  cv::Mat cells = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  for (const pcl::index_t i : grid.finite)
+    if (std::any_of(planes.begin(), planes.end(), [&](const DepthPlane& plane) {
+          return heightOver(plane, grid, i) < tolerance;
+        }))
+      cells.ptr<std::uint8_t>()[i] = 255;
+  return cells;
 }
 
 /** \brief Share of cells that lie on a plane or behind it. */
@@ -166,6 +170,7 @@ bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why) {
 bool depthOddsInBox(const ColorCloud& cloud,
                     const cv::Rect& box,
                     const cv::Rect& window,
+                    double disparity_scale,
                     cv::Mat& odds) {
   constexpr double MOST = 3.0;   // of ln odds: of twenty such pixels one is another's
   constexpr double RIM = 6.0;    // a matched window fattens outlines by so much [px]
@@ -186,8 +191,8 @@ bool depthOddsInBox(const ColorCloud& cloud,
     return false;
   const float tolerance = NOISE * grid.medianDepth();
   int count = 0;
-  const cv::Mat patches = labelPatches(
-      grid, findPlanesAround(grid, core, inner, tolerance), tolerance, &count);
+  const std::vector<DepthPlane> planes = findPlanesAround(grid, core, inner, tolerance);
+  const cv::Mat patches = labelPatches(grid, planes, tolerance, &count);
   const std::vector<int> sizes = sizesOf(patches, count, core);
   const auto best = std::max_element(sizes.begin() + 1, sizes.end());
   if (best == sizes.end() || *best < 0.1 * cv::countNonZero(core))
@@ -200,33 +205,24 @@ bool depthOddsInBox(const ColorCloud& cloud,
   const std::vector<int> in_box = sizesOf(patches, count, cells);
   const std::vector<int> all =
       sizesOf(patches, count, cv::Mat(patches.size(), CV_8U, cv::Scalar(255)));
-  // what lies in the box at the depth of its middle belongs to the same thing
-  std::vector<std::vector<float>> depths(sizes.size());
-  for (const pcl::index_t i : grid.finite)
-    depths[std::size_t(patches.ptr<int>()[i])].push_back(
-        (*grid.points)[std::size_t(i)].z);
-  const auto range = [&depths](std::size_t k) {
-    std::vector<float>& d = depths[k];
-    std::sort(d.begin(), d.end());
-    const std::size_t cut = d.size() / 20;
-    return cv::Vec2f(d[cut], d[d.size() - 1 - cut]);
-  };
+  // what the box holds at the depth of its middle belongs to the same thing, which is
+  // hardly deeper than wide
   const auto main = std::size_t(best - sizes.begin());
-  const cv::Vec2f own = range(main);
+  const std::vector<float> middle_depths = grid.medianDepths(patches, count);
+  const float reach = 0.5F * middle_depths[main] * grid.angle() *
+                      float(std::max(in_cells.width, in_cells.height));
   cv::Mat object = patches == static_cast<int>(main);
-  for (std::size_t k = 1; k < sizes.size(); ++k) {
-    if (k == main || in_box[k] < 5 || in_box[k] < IN_BOX * all[k])
-      continue;
-    const cv::Vec2f its = range(k);
-    if (its[0] < own[0] - 2.0F * tolerance || its[1] > own[1] + 2.0F * tolerance)
-      continue;
-    object |= patches == static_cast<int>(k);
-  }
-  const cv::Mat known = finiteCells(grid);
+  for (std::size_t k = 1; k < sizes.size(); ++k)
+    if (in_box[k] >= 5 && in_box[k] >= IN_BOX * all[k] &&
+        std::abs(middle_depths[k] - middle_depths[main]) < reach)
+      object |= patches == static_cast<int>(k);
+  const cv::Mat background =
+      (((patches > 0) | behind(grid, planes, tolerance)) & ~object) |
+      grid.hiddenToTheLeft(object, disparity_scale);
   const cv::Mat told =
       grid.toPixels(oddsOfDepths(grid, object, cells, tolerance, MOST));
   const cv::Mat mine = grid.toPixels(object);
-  const cv::Mat others = grid.toPixels(known & ~object) & ~mine;
+  const cv::Mat others = grid.toPixels(background) & ~mine;
   const cv::Mat to_mine = distanceTo(mine), to_others = distanceTo(others);
   odds = cv::Mat::zeros(window.size(), CV_32F);
   odds.forEach<float>([&](float& o, const int* at) {

@@ -25,11 +25,13 @@ bool findTableObject(const ColorCloud& cloud, cv::Mat& mask, std::string& why);
  * fills most of the box's middle is the object, with what lies in the box at its depth;
  * other depths are not. Near the border between the two, windows of the matcher may
  * have taken either for the other. \param[in] window part of the image around the box
+ * \param[in] disparity_scale disparity times depth [px m], 0 if no pair was matched
  * \param[out] odds CV_32F of the window's size: ln of the odds that a pixel is the
  * object's, 0 where nothing is known \return false if no patch stands out */
 bool depthOddsInBox(const ColorCloud& cloud,
                     const cv::Rect& box,
                     const cv::Rect& window,
+                    double disparity_scale,
                     cv::Mat& odds);
 
 /** \brief Rough mask of the patch of connected depths above the table under a pixel.

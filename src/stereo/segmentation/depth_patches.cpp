@@ -3,10 +3,11 @@
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/sample_consensus/ransac.h>
-#include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
+#include <pcl/sample_consensus/sac_model_normal_parallel_plane.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace pcl_sq::detail {
@@ -26,15 +27,101 @@ DepthGrid::DepthGrid(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
         finite.push_back(static_cast<pcl::index_t>(points->size()));
       points->emplace_back(p.x, p.y, p.z);
     }
+  findNormals();
+  findFolds();
+}
+
+// Inverse depths of a plane are linear over the rays x/z, y/z: of the line through
+// those of a matcher's window the slopes and the height are the normal.
+void DepthGrid::findNormals() {
+  constexpr int SIDE = 9; // of the window that disparities are refined in [px]
+  enum { ONE, X, Y, W, XX, XY, YY, XW, YW, SUMS };
+  const int side = side_ = 2 * std::max(1, (SIDE / 2 + step / 2) / step) + 1;
+  std::vector<cv::Mat> sums;
+  for (int k = 0; k < SUMS; ++k)
+    sums.emplace_back(cv::Mat::zeros(height, width, CV_64F));
+  for (const pcl::index_t i : finite) {
+    const pcl::PointXYZ& p = (*points)[static_cast<std::size_t>(i)];
+    const double w = 1.0 / double(p.z), x = double(p.x) * w, y = double(p.y) * w;
+    const double values[SUMS] = {1.0, x, y, w, x * x, x * y, y * y, x * w, y * w};
+    for (int k = 0; k < SUMS; ++k)
+      sums[std::size_t(k)].ptr<double>()[i] = values[k];
+  }
+  for (cv::Mat& s : sums)
+    cv::boxFilter(s, s, CV_64F, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>(
+      static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+  for (const pcl::index_t i : finite) {
+    const auto sum = [&](int k) { return sums[std::size_t(k)].ptr<double>()[i]; };
+    const double n = sum(ONE);
+    if (n < 0.5 * side * side) // of half a window one knows nothing across it
+      continue;
+    const Eigen::Vector2d mean(sum(X) / n, sum(Y) / n);
+    Eigen::Matrix2d square;
+    square << sum(XX), sum(XY), sum(XY), sum(YY);
+    square -= n * mean * mean.transpose();
+    const double w = sum(W) / n;
+    const Eigen::Vector2d slope =
+        square.ldlt().solve(Eigen::Vector2d(sum(XW), sum(YW)) - n * w * mean);
+    const Eigen::Vector3d normal =
+        -Eigen::Vector3d(slope.x(), slope.y(), w - slope.dot(mean)).normalized();
+    if (normal.allFinite())
+      (*normals)[std::size_t(i)].getNormalVector3fMap() = normal.cast<float>();
+  }
+}
+
+bool DepthGrid::isStep(int u, int v) const {
+  // of a ball's outline nothing but the outermost 6 % of its radius is steeper
+  static const float STEEPEST = float(std::cos(70.0 * M_PI / 180.0));
+  const pcl::PointXYZ& p = at(u, v);
+  const auto n = (*normals)[std::size_t(v) * std::size_t(width) + std::size_t(u)]
+                     .getNormalVector3fMap();
+  return !n.isZero() && -n.dot(p.getVector3fMap().normalized()) < STEEPEST;
 }
 
 float DepthGrid::medianDepth() const {
-  std::vector<float> depths;
+  return medianDepths(cv::Mat::zeros(height, width, CV_32S), 0).front();
+}
+
+std::vector<float> DepthGrid::medianDepths(const cv::Mat& labels, int count) const {
+  std::vector<std::vector<float>> depths(static_cast<std::size_t>(count) + 1);
   for (const pcl::index_t i : finite)
-    depths.push_back((*points)[static_cast<std::size_t>(i)].z);
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+    depths[static_cast<std::size_t>(labels.ptr<int>()[i])].push_back(
+        (*points)[static_cast<std::size_t>(i)].z);
+  std::vector<float> medians;
+  for (std::vector<float>& d : depths) {
+    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+    std::nth_element(d.begin(), middle, d.end());
+    medians.push_back(d.empty() ? 0.0F : *middle);
+  }
+  return medians;
+}
+
+cv::Mat DepthGrid::hiddenToTheLeft(const cv::Mat& object, double scale) const {
+  cv::Mat hidden = cv::Mat::zeros(height, width, CV_8U);
+  for (int v = 0; v < height; ++v)
+    for (int u = 1; u < width; ++u) {
+      if (object.at<std::uint8_t>(v, u) == 0 || std::isfinite(at(u - 1, v).z))
+        continue;
+      int left = u - 1;
+      while (left >= 0 && !std::isfinite(at(left, v).z))
+        --left;
+      if (left < 0)
+        continue;
+      const double reach =
+          scale * (1.0 / double(at(u, v).z) - 1.0 / double(at(left, v).z)) / step;
+      const int first = std::max(left + 1, u - static_cast<int>(std::max(0.0, reach)));
+      hidden(cv::Range(v, v + 1), cv::Range(first, u)).setTo(255);
+    }
+  return hidden;
+}
+
+float DepthGrid::angle() const {
+  const auto row = [this](pcl::index_t i) { return i / width; };
+  const pcl::index_t first = finite.front(), last = finite.back();
+  const pcl::PointXYZ& a = (*points)[std::size_t(first)];
+  const pcl::PointXYZ& b = (*points)[std::size_t(last)];
+  return (b.y / b.z - a.y / a.z) / float(std::max(1, row(last) - row(first)));
 }
 
 cv::Mat DepthGrid::toPixels(const cv::Mat& cells) const {
@@ -53,16 +140,68 @@ cv::Mat DepthGrid::toPixels(const cv::Mat& cells) const {
   return mask;
 }
 
+float DepthGrid::foldAt(int u, int v) const {
+  const auto cell = [this](int x, int y) {
+    return std::size_t(y) * std::size_t(width) + std::size_t(x);
+  };
+  const int r = side_ / 2 + 1; // windows to both sides have nothing in common
+  float widest = 0.0F;
+  for (const cv::Point d : {cv::Point(r, 0), {0, r}, {r, r}, {r, -r}}) {
+    const int u1 = u - d.x, v1 = v - d.y, u2 = u + d.x, v2 = v + d.y;
+    if (std::min({u1, v1, u2, v2}) < 0 || std::max(u1, u2) >= width ||
+        std::max(v1, v2) >= height)
+      continue;
+    const auto n1 = (*normals)[cell(u1, v1)].getNormalVector3fMap();
+    const auto n2 = (*normals)[cell(u2, v2)].getNormalVector3fMap();
+    if (n1.isZero() || n2.isZero() || isStep(u1, v1) || isStep(u2, v2))
+      continue;
+    const Eigen::Vector3f apart =
+        at(u2, v2).getVector3fMap() - at(u1, v1).getVector3fMap();
+    if ((n2 - n1).dot(apart) < 0.0F)
+      widest = std::max(widest, std::acos(std::clamp(n1.dot(n2), -1.0F, 1.0F)));
+  }
+  return widest;
+}
+
+void DepthGrid::findFolds() {
+  constexpr float ANGLE = 0.35F; // that parts things in scenes too (M25) [rad]
+  folds_ = cv::Mat::zeros(height, width, CV_32F);
+  std::vector<float> angles;
+  for (const pcl::index_t i : finite) {
+    const float fold = foldAt(i % width, i / width);
+    folds_.ptr<float>()[i] = fold;
+    angles.push_back(fold);
+  }
+  least_fold_ = ANGLE;
+  if (angles.empty())
+    return;
+  const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
+  std::nth_element(angles.begin(), middle, angles.end());
+  least_fold_ = std::max(ANGLE, 3.0F * *middle);
+}
+
 bool findPlane(const DepthGrid& grid,
                const pcl::Indices& cells,
                double tolerance,
                double angle,
                double least,
                DepthPlane& plane) {
-  if (cells.size() < 10)
+  const auto fewest = std::max(10.0, least * static_cast<double>(cells.size()));
+  pcl::Indices level;
+  std::copy_if(
+      cells.begin(), cells.end(), std::back_inserter(level), [&](pcl::index_t i) {
+        const float up = (*grid.normals)[static_cast<std::size_t>(i)].normal_y;
+        return std::abs(up) >= static_cast<float>(std::cos(angle));
+      });
+  if (static_cast<double>(level.size()) < fewest)
     return false;
-  using Model = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
-  const Model::Ptr model(new Model(grid.points, cells));
+  // of three faces that meet at right angles each is farther than this from the others
+  constexpr double ALIKE = 30.0 * M_PI / 180.0;
+  using Model =
+      pcl::SampleConsensusModelNormalParallelPlane<pcl::PointXYZ, pcl::Normal>;
+  const Model::Ptr model(new Model(grid.points, level));
+  model->setInputNormals(grid.normals);
+  model->setNormalDistanceWeight(tolerance / ALIKE);
   model->setAxis(-Eigen::Vector3f::UnitY());
   model->setEpsAngle(angle);
   pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, tolerance);
@@ -76,8 +215,7 @@ bool findPlane(const DepthGrid& grid,
   ransac.getModelCoefficients(coefficients);
   model->optimizeModelCoefficients(inliers, coefficients, refined);
   plane = refined[3] < 0.0f ? DepthPlane(-refined) : DepthPlane(refined);
-  return static_cast<double>(inliers.size()) >=
-         least * static_cast<double>(cells.size());
+  return static_cast<double>(inliers.size()) >= fewest;
 }
 
 cv::Mat labelPatches(const DepthGrid& grid,
@@ -85,11 +223,11 @@ cv::Mat labelPatches(const DepthGrid& grid,
                      float tolerance,
                      int* count) {
   constexpr float JUMP = 0.025f; // of the depth, between neighbours
-  constexpr int REACH = 2;       // bridges a missing pixel
+  constexpr int REACH = 1;       // neighbours: what is farther lies beyond a step
   cv::Mat labels = cv::Mat::zeros(grid.height, grid.width, CV_32S);
   const auto counts = [&](int u, int v) {
     const auto& p = grid.at(u, v);
-    return std::isfinite(p.z) &&
+    return std::isfinite(p.z) && !grid.isStep(u, v) && !grid.isFold(u, v) &&
            std::all_of(planes.begin(), planes.end(), [&](const DepthPlane& plane) {
              return plane.head<3>().dot(p.getVector3fMap()) + plane[3] > tolerance;
            });

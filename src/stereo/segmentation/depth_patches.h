@@ -17,6 +17,7 @@ struct DepthGrid {
   int step = 1, width = 0, height = 0;
   cv::Rect window;
   pcl::PointCloud<pcl::PointXYZ>::Ptr points; ///< width x height, NaN: none
+  pcl::PointCloud<pcl::Normal>::Ptr normals;  ///< of the same; 0: unknown
   pcl::Indices finite;                        ///< cells that have a point
 
   DepthGrid(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const cv::Rect& window);
@@ -25,15 +26,39 @@ struct DepthGrid {
                      static_cast<std::size_t>(u)];
   }
   float medianDepth() const; ///< \pre there is a finite cell
+  /** \brief The same of the cells of each label, 0 to count; 0 where there are none. */
+  std::vector<float> medianDepths(const cv::Mat& labels, int count) const;
+  /** \brief Whether the surface at a cell is seen so aslant that it is none: a step
+   * between two of them, which matching has smeared over its window. */
+  bool isStep(int u, int v) const;
+  /** \brief Whether a fold runs through a cell that opens to the camera: there one
+   * thing stands on another or leans on it. */
+  bool isFold(int u, int v) const { return folds_.at<float>(v, u) > least_fold_; }
+  float angle() const; ///< between the rays of neighbouring cells [rad]
+  /** \brief Cells without a point to the left of a thing that it hides from the right
+   * camera: as far as the disparities differ from those beyond.
+   * \param[in] object CV_8U \param[in] scale disparity times depth [px m] */
+  cv::Mat hiddenToTheLeft(const cv::Mat& object, double scale) const;
   /** \brief A mask of cells as one of the window's pixels. */
   cv::Mat toPixels(const cv::Mat& cells) const;
+
+private:
+  int side_ = 0;  ///< of the window that normals are taken over, in cells
+  cv::Mat folds_; ///< CV_32F, of each cell the angle that opens widest [rad]
+  float least_fold_ = 0.0F;
+
+  void findNormals();
+  void findFolds();
+  float foldAt(int u, int v) const;
 };
 
 /** \brief n.p + d = 0, the camera on the positive side. */
 using DepthPlane = Eigen::Vector4f;
 
 /** \brief Largest plane among some cells whose normal is within \a angle of the
- * camera's up (-y). \param[in] least inliers of a plane, as a share of the cells */
+ * camera's up (-y). Cells are on it where their own surface faces as it does: what it
+ * cuts through is no part of it. \param[in] least inliers of a plane, as a share of the
+ * cells */
 bool findPlane(const DepthGrid& grid,
                const pcl::Indices& cells,
                double tolerance,
@@ -41,9 +66,9 @@ bool findPlane(const DepthGrid& grid,
                double least,
                DepthPlane& plane);
 
-/** \brief Patches of points, cut at depth jumps. \param[in] planes only points above
- * all of them count \param[in] tolerance least height above a plane [m] \return CV_32S:
- * 1 to count, 0 = none */
+/** \brief Patches of points, cut at jumps, steps and folds. \param[in] planes only
+ * points above all of them count \param[in] tolerance least height above a plane [m]
+ * \return CV_32S: 1 to count, 0 = none */
 cv::Mat labelPatches(const DepthGrid& grid,
                      const std::vector<DepthPlane>& planes,
                      float tolerance,

@@ -27,6 +27,18 @@ cv::Mat toBgr(const cv::Mat& image) {
   return bgr;
 }
 
+/** \brief A dark image as bright as others: colours are told apart in steps of the
+ * whole range. */
+cv::Mat brightened(const cv::Mat& bgr) {
+  constexpr double BRIGHTEST = 0.01; // of the values, which may be lamps and glints
+  cv::Mat values = bgr.clone().reshape(1, 1), result;
+  auto* first = values.ptr<std::uint8_t>();
+  auto* high = first + std::ptrdiff_t((1.0 - BRIGHTEST) * values.cols);
+  std::nth_element(first, high, first + values.cols);
+  cv::convertScaleAbs(bgr, result, 255.0 / std::max<double>(1.0, *high));
+  return result;
+}
+
 constexpr double HALF_SEEN = 0.4; // of a box's area, by the box of what is found in it
 /** The same where depth helps: boxes drawn by hand are off by a tenth on each side. */
 constexpr double DRAWN = 0.75;
@@ -50,7 +62,9 @@ bool SegmenterOptions::isValid(std::string* why) const {
          require(min_share >= 0.0 && min_share < 1.0, "min_share must lie in [0, 1)") &&
          require(margin >= 0.05 && margin <= 2.0, "margin must lie in [0.05, 2]") &&
          require(color_radius >= 1.0 && color_radius <= 100.0,
-                 "color_radius must lie in [1, 100]");
+                 "color_radius must lie in [1, 100]") &&
+         require(disparity_scale >= 0.0 && std::isfinite(disparity_scale),
+                 "disparity_scale must not be negative");
 }
 
 void ObjectSegmenter::setOptions(const SegmenterOptions& options) {
@@ -110,7 +124,7 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
     return fail("segmentBox",
                 "the box lies outside of the image or is empty; give one within it",
                 segment);
-  const cv::Mat bgr = toBgr(image);
+  const cv::Mat bgr = brightened(toBgr(image));
   const cv::Rect window = grown(inside, options_.margin, bgr);
   if (window == inside)
     return fail("segmentBox",
@@ -124,25 +138,26 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
   else
     cutInBox(bgr, inside, window, options_.iterations).copyTo(mask(window));
   mask = largestComponents(mask);
-  // colours alone draw the finer line, unless depth tells that they are wrong
   if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
-      depthOddsInBox(cloud, inside, window, depth_odds)) {
+      depthOddsInBox(cloud, inside, window, options_.disparity_scale, depth_odds)) {
     const cv::Rect inner = inside - window.tl();
     const double right = std::min(agreement(mask(window), inner, depth_odds),
                                   separability(bgr(window), mask(window)));
-    const bool piece = cv::boundingRect(mask).area() < HALF_SEEN * inside.area();
-    if (right < AGREES || piece) {
-      cv::Mat jointly = cv::Mat::zeros(bgr.size(), CV_8U);
-      cutJointly(bgr(window), inner, depth_odds, options_.iterations)
-          .copyTo(jointly(window));
-      jointly = largestComponents(jointly);
-      if (cv::boundingRect(jointly).area() >= DRAWN * inside.area()) {
-        mask = jointly;
+    cv::Mat jointly = cv::Mat::zeros(bgr.size(), CV_8U);
+    cutJointly(bgr(window), inner, depth_odds, options_.iterations)
+        .copyTo(jointly(window));
+    jointly = largestComponents(jointly);
+    // colours that see more of the box are believed, unless they see most of it anyhow
+    const double by_colors =
+        std::max<double>(cv::boundingRect(mask).area(), HALF_SEEN * inside.area());
+    if (cv::boundingRect(jointly).area() >=
+        std::min(by_colors, DRAWN * inside.area())) {
+      mask = jointly;
+      if (right < AGREES)
         notes.emplace_back(
             "colours alone do not tell the object from its surroundings, so "
             "its depth draws the outline as well; a mask of the object is "
             "surer");
-      }
     }
   }
   const bool told = cv::boundingRect(mask).area() >= HALF_SEEN * inside.area();
