@@ -22,9 +22,10 @@ int main() {
   for (const auto& thing : {box, can})
     for (const Eigen::Vector3d& p : pcl_sq::sampleUniform(thing, 1500))
       cloud->push_back({float(p.x()), float(p.y()), float(p.z())});
-  for (int i = 0; i < 300; ++i) // a wall behind them
-    cloud->push_back(
-        {-0.3F + 0.03F * float(i % 20), -0.2F + 0.03F * float(i / 20), 1.0F});
+  for (int row = 0; row < 15; ++row) // a wall behind them
+    for (int column = 0; column < 20; ++column)
+      cloud->push_back(
+          {-0.3F + 0.03F * float(column), -0.2F + 0.03F * float(row), 1.0F});
 
   pcl_sq::SuperquadricSegmentation<pcl::PointXYZ> segmentation;
   segmentation.setInputCloud(cloud);

@@ -53,9 +53,9 @@ Cloud::Ptr sceneOf(const std::vector<pcl_sq::Superquadric>& things) {
       if (thing.normal(p).dot(p) < 0.0)
         add(p);
   const Eigen::Vector3d away = UP.cross(Eigen::Vector3d::UnitX());
-  for (double x = -0.35; x < 0.35; x += 0.006)
-    for (double y = -0.2; y < 0.2; y += 0.006)
-      add(MIDDLE + x * Eigen::Vector3d::UnitX() + y * away);
+  for (int i = -58; i <= 58; ++i)
+    for (int k = -33; k <= 33; ++k)
+      add(MIDDLE + 0.006 * i * Eigen::Vector3d::UnitX() + 0.006 * k * away);
   return cloud;
 }
 
@@ -110,9 +110,9 @@ int main() {
       continue;
     ++models;
     double width = 0.0; // support() measures from the origin, so of both sides
-    for (double angle = 0.0; angle < 3.14; angle += 0.1) {
+    for (int k = 0; k < 32; ++k) {
       const Eigen::Vector3d direction =
-          Eigen::AngleAxisd(angle, table->normal) * Eigen::Vector3d::UnitX();
+          Eigen::AngleAxisd(0.1 * k, table->normal) * Eigen::Vector3d::UnitX();
       width = std::max(width, model.support(direction) + model.support(-direction));
     }
     const Eigen::Vector3d center = model.boundingBox().center();

@@ -61,6 +61,7 @@ std::string errorLine(const std::string& path, const std::string& why) {
 std::vector<std::string> filesOf(const std::string& pattern) {
   glob_t found{};
   std::vector<std::string> files;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): before there are threads
   if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
     files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   globfree(&found);

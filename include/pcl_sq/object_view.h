@@ -53,6 +53,9 @@ struct PCL_SQ_EXPORTS ViewOptions {
   bool object_is_region = false;
   double mask_sigma = 0.7;     ///< noise of the mask's outline [px], (0, 20]
   double mask_dilation = 0.35; ///< sigma of its unknown dilation [px], [0, 20]
+  /** \brief Side of the squares of its pixels that are wrong together [px], [1, 100];
+   * those of a mask that was found in depth reach as far as its errors. */
+  double mask_correlation = 1.0;
   /** \brief Standard deviation of each point of the cloud along its ray [m], as a
    * stereo rig's measured one; empty: what the points show by themselves. */
   Eigen::VectorXf noise;
@@ -88,9 +91,10 @@ struct PCL_SQ_EXPORTS ObservedObject {
   PinholeCamera camera; ///< real, or virtual for bare points
   std::vector<ContourPoint> contour;
   OutlineSource outline = OutlineSource::NONE;
-  double outline_sigma = 0.6;     ///< [px]
-  double outline_dilation = 0.35; ///< sigma [px]
-  double outline_offset = 0.0;    ///< expected dilation [px]
+  double outline_sigma = 0.6;       ///< [px]
+  double outline_correlation = 1.0; ///< side of squares of pixels wrong together [px]
+  double outline_dilation = 0.35;   ///< sigma [px]
+  double outline_offset = 0.0;      ///< expected dilation [px]
   std::optional<TableModel> table;
   double effective_points = 0.0; ///< independent ones among the points
   /** \brief What bare points tell of the surface they lie on. */

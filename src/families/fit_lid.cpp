@@ -66,7 +66,7 @@ UnitPoints lifted(const UnitPoints& points,
       precision.push_back(all.precision[i]);
   }
   if (all.precision)
-    result.setPrecision(std::move(precision));
+    result.setPrecision(precision);
   return result;
 }
 

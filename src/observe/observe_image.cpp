@@ -115,6 +115,7 @@ bool observeImage(Observation& o, std::string& why) {
   findFreeSpace(o, box, FREE_MARGIN + (has_mask ? 0 : rim));
   findGap(o, box);
   out.outline_sigma = sharp ? o.view.mask_sigma : 1.5;
+  out.outline_correlation = has_mask ? o.view.mask_correlation : OUTLINE_CORRELATION;
   out.outline_dilation = sharp ? o.view.mask_dilation : 1.5;
   const double missing = has_mask ? 0.0 : missingEdge(o);
   out.outline_offset = missing > 0.0 ? -0.5 * missing : sharp ? 0.0 : FATTENING;

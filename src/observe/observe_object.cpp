@@ -34,6 +34,8 @@ bool ViewOptions::isValid(std::string* why) const {
     return refuse("the points' noise must be finite and positive");
   if (!(mask_sigma > 0.0 && mask_sigma <= 20.0))
     return refuse("mask_sigma must lie in (0, 20]");
+  if (!(mask_correlation >= 1.0 && mask_correlation <= 100.0))
+    return refuse("mask_correlation must lie in [1, 100]");
   if (!(mask_dilation >= 0.0 && mask_dilation <= 20.0))
     return refuse("mask_dilation must lie in [0, 20]");
   if (!(correlation >= 1.0 && correlation <= 100.0))

@@ -26,14 +26,14 @@ public:
     const int x = int(std::lround(pixel.x())) / STEP,
               y = int(std::lround(pixel.y())) / STEP;
     if (has(x, y))
-      worth_[std::size_t(y * width_ + x)] += worth;
+      worth_[indexOf(x, y)] += worth;
   }
 
   /** \brief Takes what costs something and hangs together out of the grid. */
   void takeFrom(std::size_t first, LeftOver& cluster) {
     std::vector<int> open;
     const auto take = [&](int x, int y) {
-      double& worth = worth_[std::size_t(y * width_ + x)];
+      double& worth = worth_[indexOf(x, y)];
       if (!(worth > 0.0))
         return;
       cluster.worth += worth;
@@ -55,6 +55,9 @@ public:
   std::size_t size() const { return worth_.size(); }
 
 private:
+  std::size_t indexOf(int x, int y) const {
+    return std::size_t(y) * std::size_t(width_) + std::size_t(x);
+  }
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
   int width_, height_;

@@ -5,6 +5,7 @@
 #include "tuning/parts_tuning.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_sq::detail {
 
@@ -68,7 +69,7 @@ std::vector<Eigen::Vector2d> pixelsLeft(const PieceContext& context,
 }
 
 double contradictionCost(const ObservedObject& observed) {
-  return MAX_COST * (observed.outline == OutlineSource::MASK ? 1.0 : OF_DEPTH);
+  return MAX_COST * std::min(1.0, std::pow(STEP / observed.outline_correlation, 2));
 }
 
 double outlineCost(const PieceContext& context, const std::vector<Piece>& pieces) {

@@ -66,7 +66,7 @@ struct Thinned {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
         points.col(Eigen::Index(y) * width + x) =
-            all.col(Eigen::Index(y * step) * w + x * step);
+            all.col(Eigen::Index(y) * step * w + Eigen::Index(x) * step);
     camera.fx /= step;
     camera.fy /= step;
     camera.cx /= step;

@@ -206,7 +206,7 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
     const Look look = lookFrom(middle + FAR * extent * direction, some);
     // from between two of these directions points look about as from the nearer one
     if (!asked && (one_sided || look.doubt < MUCH))
-      if (const std::optional<Eigen::Vector3d> place = likelyPlace())
+      if (std::optional<Eigen::Vector3d> place = likelyPlace())
         return place;
     if (look.once() && look.bulge > BULGE * extent) {
       sum += direction;

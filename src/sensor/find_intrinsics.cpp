@@ -19,7 +19,8 @@ bool findIntrinsics(const CloudPoints& points,
     const Eigen::Vector3d p = points.col(c).cast<double>();
     if (!p.allFinite() || !(p.z() > 0.0))
       continue;
-    const double u = c % width, v = c / width, x = p.x() / p.z(), y = p.y() / p.z();
+    const int column = c % width, row = c / width;
+    const double u = column, v = row, x = p.x() / p.z(), y = p.y() / p.z();
     samples.push_back({{u, v}, {x, y}});
     n += 1.0;
     su += u;

@@ -38,7 +38,8 @@ double cellFor(const Eigen::Matrix3Xd& points, Eigen::Index stride) {
       points.rowwise().maxCoeff() - points.rowwise().minCoeff();
   const double area =
       2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
-  const double count = double(points.cols() / stride + 1);
+  const Eigen::Index looked_at = points.cols() / stride + 1;
+  const auto count = double(looked_at);
   // points on a line have no area
   const double cell =
       std::max(std::sqrt(POINTS_A_CELL * area / count), size.norm() / count);

@@ -203,8 +203,8 @@ void StereoCalibration::prepareMaps(const cv::Size& size) {
     else
       cv::initUndistortRectifyMap(m, d, r, p, size, CV_32FC1, maps[0], maps[1]);
   };
-  makeMaps(c.M1, c.D1, c.R1, c.P1, maps_);
-  makeMaps(c.M2, c.D2, c.R2, c.P2, maps_ + 2);
+  makeMaps(c.M1, c.D1, c.R1, c.P1, maps_.data());
+  makeMaps(c.M2, c.D2, c.R2, c.P2, maps_.data() + 2);
 }
 
 void StereoCalibration::rectify(const cv::Mat& left,

@@ -159,9 +159,6 @@ namespace outline_gaps {
 inline constexpr double TOLERANCE = 0.03;
 /// [px] of the grid that is looked at; budget
 inline constexpr int STEP = 2;
-/// [1] independent observations per pixel of that grid where depth made the outline;
-/// errors are alike within a matching window
-inline constexpr double OF_DEPTH = 0.08;
 /// [px] beside the outline, which may be either's; a sensor's rim
 inline constexpr int MARGIN = 2;
 /// [width] of the first cut into a gap, over the gap's; chosen

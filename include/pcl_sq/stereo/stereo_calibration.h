@@ -6,6 +6,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -112,7 +113,8 @@ private:
   StereoIntrinsics intrinsics_;
   RawStereoCameras raw_;
   std::vector<std::string> notes_;
-  cv::Mat maps_[4]; // left 1, left 2, right 1, right 2: made for the first pair
+  std::array<cv::Mat, 4>
+      maps_; // left 1, left 2, right 1, right 2: made for the first pair
 };
 
 } // namespace pcl_sq

@@ -2,6 +2,7 @@
 // From what the images gave to the model.
 #include "pcl_sq/exception.h"
 #include "pcl_sq/stereo/stereo_pipeline.h"
+#include "sensor/depth_patch.h"
 
 #include <opencv2/core.hpp>
 #include <pcl/console/print.h>
@@ -35,6 +36,7 @@ void tellView(const StereoView& view, bool painted, ViewOptions& options) {
   if (!painted) {
     options.mask_sigma = FOUND_OUTLINE;
     options.mask_dilation = FOUND_DILATION;
+    options.mask_correlation = detail::OUTLINE_CORRELATION;
   }
   const cv::Mat& mask = view.segment.mask;
   options.mask = CellMask();
