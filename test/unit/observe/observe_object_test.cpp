@@ -233,6 +233,9 @@ TEST(ObserveObject, SettingsOutOfRangeAreRefusedWithASentence) {
   EXPECT_FALSE(view.isValid(&why));
   EXPECT_FALSE(why.empty());
   view = {};
+  view.mask_correlation = 0.5;
+  EXPECT_FALSE(view.isValid(&why));
+  view = {};
   view.table = TableModel{Eigen::Vector3d(0, 0, 2), 0.0};
   EXPECT_FALSE(view.isValid(&why));
   view = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stalks: what sticks out of a body is a part of its own.
+#include "outlines/outline_cost.h"
 #include "seen_scene.h"
 
 using namespace pcl_sq;
@@ -58,4 +59,18 @@ TEST(Stalk, ABallHasNone) {
   const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true), truthOf(truth));
   ASSERT_EQ(scene.objects.size(), 1u);
   EXPECT_EQ(scene.objects[0].model.size(), 1u);
+}
+
+TEST(OutlineCost, PixelsThatAreWrongTogetherAreOneObservation) {
+  ObservedObject observed;
+  observed.outline = OutlineSource::MASK;
+  const auto costAt = [&](double correlation) {
+    observed.outline_correlation = correlation;
+    return detail::contradictionCost(observed);
+  };
+  EXPECT_GT(costAt(1.0), 0.0);
+  EXPECT_EQ(costAt(1.0), costAt(1.5)); // squares smaller than the grid's
+  // a square of twice the side is one where four were
+  EXPECT_NEAR(costAt(14.0), costAt(7.0) / 4.0, 1e-12);
+  EXPECT_LT(costAt(7.0), 0.1 * costAt(1.0));
 }
