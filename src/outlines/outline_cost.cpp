@@ -83,4 +83,11 @@ double outlineCost(const PieceContext& context, const std::vector<Piece>& pieces
          (double(pixelsLeft(context, pieces).size()) + double(covered));
 }
 
+double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
+  double score = outlineCost(context, pieces);
+  for (const Piece& piece : pieces)
+    score += piece.score;
+  return score;
+}
+
 } // namespace pcl_sq::detail

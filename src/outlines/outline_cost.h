@@ -18,4 +18,7 @@ double contradictionCost(const ObservedObject& observed);
  * those of the object that they leave. */
 double outlineCost(const PieceContext& context, const std::vector<Piece>& pieces);
 
+/** \brief What the parts leave unexplained, points and outline together. */
+double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces);
+
 } // namespace pcl_sq::detail

@@ -92,14 +92,6 @@ std::vector<Piece> piecesAroundGap(const PieceContext& context, const Piece& who
   return pieces;
 }
 
-/** \brief What the parts leave unexplained, points and outline together. */
-double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
-  double score = outlineCost(context, pieces);
-  for (const Piece& piece : pieces)
-    score += piece.score;
-  return score;
-}
-
 } // namespace
 
 void openGap(const PieceContext& context, std::vector<Piece>& pieces, double min_gain) {

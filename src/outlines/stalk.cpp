@@ -193,13 +193,6 @@ Piece without(const PieceContext& context, const Piece& piece, const CellMask& m
   return rest;
 }
 
-double scoreOf(const PieceContext& context, const std::vector<Piece>& pieces) {
-  double score = outlineCost(context, pieces);
-  for (const Piece& piece : pieces)
-    score += piece.score;
-  return score;
-}
-
 /** \brief One stalk. \return whether there is one that pays */
 bool addStalk(const PieceContext& context, std::vector<Piece>& pieces) {
   const ObservedObject& o = context.observed;
