@@ -4,6 +4,7 @@
 #include "tuning/observe_tuning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -73,6 +74,39 @@ std::vector<ContourPoint> asOwn(std::vector<ContourPoint> contour) {
   return contour;
 }
 
+/** \brief Lines that touch the outline where its pixels are wrong together are wrong
+ * together: all those of one corner tell no more than where it is, which is two
+ * numbers. \param[in] side of squares of such pixels [px] \return over the outline's
+ * sigma */
+std::vector<double> sharedErrors(const std::vector<SilhouetteLine>& lines,
+                                 double side) {
+  constexpr double NUMBERS = 2.0;
+  std::vector<double> sigmas;
+  if (!(side > 1.0))
+    return std::vector<double>(lines.size(), 1.0);
+  for (const SilhouetteLine& line : lines) {
+    const auto near =
+        std::count_if(lines.begin(), lines.end(), [&](const SilhouetteLine& other) {
+          return (other.contact - line.contact).norm() < side;
+        });
+    sigmas.push_back(std::sqrt(std::max(1.0, double(near) / NUMBERS)));
+  }
+  return sigmas;
+}
+
+/** \brief Depth of the nearest points but a few [m]. */
+double nearestDepth(const ObservedObject& object) {
+  constexpr Eigen::Index FEW = 50; // one in so many may be wrong
+  std::vector<double> depths;
+  for (Eigen::Index i = 0; i < object.points.cols(); ++i)
+    depths.push_back(object.camera.depthOf(object.points.col(i)));
+  if (depths.empty())
+    return object.depth;
+  const auto near = depths.begin() + object.points.cols() / FEW;
+  std::nth_element(depths.begin(), near, depths.end());
+  return *near;
+}
+
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on. A body reaches to there, for it is seen, and
  * ends about there unless evidence says more.
@@ -85,15 +119,25 @@ void addHiddenEnds(const ObservedObject& object,
                    ViewEvidence& evidence) {
   if (object.pixels.cells.empty())
     return;
-  const auto endOf = [&object](const SilhouetteLine& line) {
-    TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
-    end.sigma = HIDDEN_SIGMA * object.extent;
-    return end;
-  };
   const CellMask& mask = object.pixels;
   const auto atBorder = [&mask](const Eigen::Vector2d& p) {
     return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
            p.y() > mask.height - 2.0;
+  };
+  constexpr double LEVEL = 0.99; // cosine: a border's own line, not its corner's
+  const double near = nearestDepth(object);
+  const auto endOf = [&](const SilhouetteLine& line) {
+    TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
+    if (atBorder(line.contact) && line.direction.cwiseAbs().maxCoeff() > LEVEL) {
+      // where the near side of it goes out of the image, not where its far side would
+      const Eigen::Vector3d ray = object.camera.ray(line.contact);
+      end.normal = object.camera.rotation *
+                   Eigen::Vector3d(line.direction.x(), line.direction.y(), 0.0);
+      end.offset = end.normal.dot(object.camera.center +
+                                  near / object.camera.rotation.col(2).dot(ray) * ray);
+    }
+    end.sigma = HIDDEN_SIGMA * object.extent;
+    return end;
   };
   // a piece's other ends are its joints; of the image's border its whole side counts,
   // not its corners, or a foot would be drawn on beyond it that nobody has seen
@@ -156,9 +200,12 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
   std::vector<SilhouetteLine> known;
   if (hasCamera()) {
     known = silhouetteLines(outline_points, lines);
-    for (SilhouetteLine line : known) {
+    const std::vector<double> shared = sharedErrors(known, outline_correlation);
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      SilhouetteLine line = known[k];
       line.offset -= outline_offset;
-      e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
+      e.silhouette.push_back(
+          tangentPlane(camera, line, shared[k] * outline_sigma, depth));
     }
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
@@ -171,7 +218,8 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
     below.offset = table->offset;
     below.sigma = std::max(table->sigma, 3e-4);
     (on_table ? e.tangents : e.limits).push_back(below);
-  }
+  } else if (outline == OutlineSource::MASK || outline == OutlineSource::DEPTH)
+    e.level = camera.rotation.col(0); // an image's top is up
   return e;
 }
 
