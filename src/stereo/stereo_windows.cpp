@@ -193,6 +193,7 @@ void StereoReprojector::computeDetail(StereoResult& scene, const CellRect& part)
                 there.width,
                 &scene.cloud->at(there.x, there.y + v));
   scene.correlation = fine.correlation;
+  scene.detail = {there.x, there.y, there.width, there.height};
   scene.timings_ms.insert(
       scene.timings_ms.end(), fine.timings_ms.begin(), fine.timings_ms.end());
 }

@@ -124,25 +124,19 @@ TEST(CloseLook, ModelsAreThoseOfTheWholePairWhateverTheHint) {
 }
 
 TEST(CloseLook, SmallImagesAndThePapersMatcherSeeTheWholePair) {
-  const auto overviewed = [](const StereoObject& object) {
-    const auto& stages = object.view.timings_ms;
-    return std::any_of(stages.begin(), stages.end(), [](const auto& stage) {
-      return stage.first == "overview";
-    });
-  };
   StereoHint box;
   box.box = scene().roi;
-  EXPECT_TRUE(overviewed(modelOf(box)));
+  EXPECT_FALSE(modelOf(box).view.stereo.detail.empty());
   const StereoScene small = renderScene("can");
   StereoPipeline pipeline(StereoCalibration::fromRectified(small.intrinsics));
   StereoObject object;
   EXPECT_TRUE(pipeline.process(small.left, small.right, object)) << object.failure;
-  EXPECT_FALSE(overviewed(object));
+  EXPECT_TRUE(object.view.stereo.detail.empty());
   StereoPipeline paper(StereoCalibration::fromRectified(scene().intrinsics));
   StereoPipelineOptions options;
   options.stereo.matcher = StereoMatcher::BM;
   options.hint = box;
   paper.setOptions(options);
   EXPECT_TRUE(paper.process(scene().left, scene().right, object)) << object.failure;
-  EXPECT_FALSE(overviewed(object));
+  EXPECT_TRUE(object.view.stereo.detail.empty());
 }

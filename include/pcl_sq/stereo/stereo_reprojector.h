@@ -30,7 +30,10 @@ struct StereoResult {
   /** Part of the rectified left image that all of these belong to, cloud, images and
    * intrinsics alike; empty: the whole image. */
   CellRect window;
-  /** Stages and their times [ms]: rectify, match, reproject. */
+  /** Part that was matched in full detail where the rest was matched at half its size;
+   * empty: no such part. */
+  CellRect detail;
+  /** Stages and their times [ms]: rectify, overview, match ... */
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 
