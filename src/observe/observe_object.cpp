@@ -94,19 +94,6 @@ std::vector<double> sharedErrors(const std::vector<SilhouetteLine>& lines,
   return sigmas;
 }
 
-/** \brief Depth of the nearest points but a few [m]. */
-double nearestDepth(const ObservedObject& object) {
-  constexpr Eigen::Index FEW = 50; // one in so many may be wrong
-  std::vector<double> depths;
-  for (Eigen::Index i = 0; i < object.points.cols(); ++i)
-    depths.push_back(object.camera.depthOf(object.points.col(i)));
-  if (depths.empty())
-    return object.depth;
-  const auto near = depths.begin() + object.points.cols() / FEW;
-  std::nth_element(depths.begin(), near, depths.end());
-  return *near;
-}
-
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on. A body reaches to there, for it is seen, and
  * ends about there unless evidence says more.
@@ -124,18 +111,8 @@ void addHiddenEnds(const ObservedObject& object,
     return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
            p.y() > mask.height - 2.0;
   };
-  constexpr double LEVEL = 0.99; // cosine: a border's own line, not its corner's
-  const double near = nearestDepth(object);
-  const auto endOf = [&](const SilhouetteLine& line) {
+  const auto endOf = [&object](const SilhouetteLine& line) {
     TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
-    if (atBorder(line.contact) && line.direction.cwiseAbs().maxCoeff() > LEVEL) {
-      // where the near side of it goes out of the image, not where its far side would
-      const Eigen::Vector3d ray = object.camera.ray(line.contact);
-      end.normal = object.camera.rotation *
-                   Eigen::Vector3d(line.direction.x(), line.direction.y(), 0.0);
-      end.offset = end.normal.dot(object.camera.center +
-                                  near / object.camera.rotation.col(2).dot(ray) * ray);
-    }
     end.sigma = HIDDEN_SIGMA * object.extent;
     return end;
   };
