@@ -4,7 +4,6 @@
 #include "tuning/observe_tuning.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -74,26 +73,6 @@ std::vector<ContourPoint> asOwn(std::vector<ContourPoint> contour) {
   return contour;
 }
 
-/** \brief Lines that touch the outline where its pixels are wrong together are wrong
- * together: all those of one corner tell no more than where it is, which is two
- * numbers. \param[in] side of squares of such pixels [px] \return over the outline's
- * sigma */
-std::vector<double> sharedErrors(const std::vector<SilhouetteLine>& lines,
-                                 double side) {
-  constexpr double NUMBERS = 2.0;
-  std::vector<double> sigmas;
-  if (!(side > 1.0))
-    return std::vector<double>(lines.size(), 1.0);
-  for (const SilhouetteLine& line : lines) {
-    const auto near =
-        std::count_if(lines.begin(), lines.end(), [&](const SilhouetteLine& other) {
-          return (other.contact - line.contact).norm() < side;
-        });
-    sigmas.push_back(std::sqrt(std::max(1.0, double(near) / NUMBERS)));
-  }
-  return sigmas;
-}
-
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on. A body reaches to there, for it is seen, and
  * ends about there unless evidence says more.
@@ -106,15 +85,15 @@ void addHiddenEnds(const ObservedObject& object,
                    ViewEvidence& evidence) {
   if (object.pixels.cells.empty())
     return;
-  const CellMask& mask = object.pixels;
-  const auto atBorder = [&mask](const Eigen::Vector2d& p) {
-    return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
-           p.y() > mask.height - 2.0;
-  };
   const auto endOf = [&object](const SilhouetteLine& line) {
     TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
     end.sigma = HIDDEN_SIGMA * object.extent;
     return end;
+  };
+  const CellMask& mask = object.pixels;
+  const auto atBorder = [&mask](const Eigen::Vector2d& p) {
+    return p.x() < 1.0 || p.y() < 1.0 || p.x() > mask.width - 2.0 ||
+           p.y() > mask.height - 2.0;
   };
   // a piece's other ends are its joints; of the image's border its whole side counts,
   // not its corners, or a foot would be drawn on beyond it that nobody has seen
@@ -177,12 +156,9 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
   std::vector<SilhouetteLine> known;
   if (hasCamera()) {
     known = silhouetteLines(outline_points, lines);
-    const std::vector<double> shared = sharedErrors(known, outline_correlation);
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      SilhouetteLine line = known[k];
+    for (SilhouetteLine line : known) {
       line.offset -= outline_offset;
-      e.silhouette.push_back(
-          tangentPlane(camera, line, shared[k] * outline_sigma, depth));
+      e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
     }
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
