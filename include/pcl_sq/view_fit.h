@@ -18,9 +18,6 @@ struct PCL_SQ_EXPORTS ViewEvidence {
   std::vector<TangentPlane> limits;   ///< half-spaces that hold it
   std::optional<Eigen::Vector3d> viewpoint; ///< the camera's place [m]
   std::optional<Eigen::Vector3d> up;        ///< normal of the table, unit length
-  /** \brief The rows of the image, unit length: most cameras are held level, so that up
-   * lies across them, where nothing else tells. */
-  std::optional<Eigen::Vector3d> level;
 };
 
 /** \brief Families of superquadrics, from many parameters to few. */

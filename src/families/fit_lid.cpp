@@ -92,8 +92,7 @@ std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
     t.model.rotation.col(2) *= -1.0;
     t.model.rotation.col(1) *= -1.0;
   }
-  const ParameterSpace space =
-      standing(spaceOf(ShapeClass::ROTATIONAL), 2, t.model, problem);
+  const ParameterSpace space = standing(spaceOf(ShapeClass::ROTATIONAL), 2);
   Lid lid;
   for (int i = 0; i < ROUNDS; ++i) {
     lid = lidOf(problem.medium(), t.model, sigma);

@@ -48,7 +48,7 @@ TaperStart taperStart(const ViewProblem& problem, const ShapeCandidate& c, int k
   ParameterSpace space = spaceOf(start.family);
   for (int axis = 0; axis < 3 && c.upright; ++axis)
     if (std::abs(start.from.model.rotation.col(axis).dot(problem.up())) > UPRIGHT)
-      space = standing(space, axis, start.from.model, problem);
+      space = standing(space, axis);
   start.basis = withTaper(space, round);
   return start;
 }

@@ -234,7 +234,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())
     axes.push_back(problem.up());
-  if (!problem.hasUp() || problem.level())
+  else
     for (int k = 0; k < 3; ++k)
       for (const double sign : {1.0, -1.0})
         axes.emplace_back(sign * best->model.rotation.col(k));
@@ -243,8 +243,7 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   std::vector<Vessel> found;
   for (const Eigen::Vector3d& axis : axes)
     for (const Superquadric& start : vesselStarts(problem, axis))
-      found.push_back(
-          rough.fit({start, 0.0, problem.hasUp() && axis == problem.up()}, 0));
+      found.push_back(rough.fit({start, 0.0, problem.hasUp()}, 0));
   std::sort(found.begin(), found.end(), cheaper);
   found.resize(std::min(found.size(), ROUGH));
   for (Vessel& v : found)

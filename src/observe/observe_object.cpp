@@ -171,8 +171,7 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
     below.offset = table->offset;
     below.sigma = std::max(table->sigma, 3e-4);
     (on_table ? e.tangents : e.limits).push_back(below);
-  } else if (outline == OutlineSource::MASK || outline == OutlineSource::DEPTH)
-    e.level = camera.rotation.col(0); // an image's top is up
+  }
   return e;
 }
 

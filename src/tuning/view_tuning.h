@@ -31,9 +31,6 @@ namespace odds {
 /// [-2 ln] odds of 400 to 1 that a part shares the axis of the solid of revolution
 /// beside it; odds: lathes, wheels, moulds
 inline constexpr double SHARED_AXIS = 12.0;
-/// [-2 ln] odds of 50 to 1 that what stands rests on a side, or on the rim of one;
-/// odds: tables
-inline constexpr double LEANS = 8.0;
 /// [-2 ln] odds against a taper: one view, uneven noise and joints feign one; odds
 inline constexpr double TAPER = 20.0;
 /// [-2 ln] the same against a bent rod: points of a straight body's one side bend as
@@ -67,9 +64,6 @@ inline constexpr std::size_t KEPT = 3;
 } // namespace view_fit
 
 namespace view_shapes {
-/// [1] cosine of 60 degrees by which a camera looks down at most on what it is held
-/// level for; definition: farther down, a top of the image is none
-inline constexpr double STEEPEST = 0.5;
 /// [1] of a box at its start; budget
 inline constexpr double BOX_EPSILON = 0.2;
 /// [steps] of a family's fit; budget

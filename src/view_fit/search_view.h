@@ -22,9 +22,8 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
 /** \brief The points' distances of a fit's model. */
 void addDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points, FitSummary& fit);
 
-/** \brief All families from the best general fit. Where but the image's rows are known
- * to be level, the problem is told which way up is. */
-std::vector<ShapeCandidate> fitShapes(ViewProblem& problem, const Trial& general);
+/** \brief All families from the best general fit. */
+std::vector<ShapeCandidate> fitShapes(const ViewProblem& problem, const Trial& general);
 
 /** \brief Last iterations of the chosen family with other points of the problem. */
 void fitAgain(const ViewProblem& problem,

@@ -83,13 +83,6 @@ void scaleEvidence(std::vector<ShapeCandidate>& candidates, double observations)
     c.bic -= c.cost * (1.0 - 1.0 / inflation);
 }
 
-/** \brief Whether a body that stands on something leans; what is round all over, or a
- * bent rod, lies as it likes. */
-bool leans(const ShapeCandidate& c) {
-  return !c.upright && !c.on_axis && c.shape != ShapeClass::ELLIPSOID &&
-         c.shape != ShapeClass::BENT;
-}
-
 } // namespace
 
 namespace detail {
@@ -128,9 +121,6 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
       c.cost += against;
       c.bic += against;
     }
-  if (problem.hasUp())
-    for (ShapeCandidate& c : result.candidates)
-      c.bic += leans(c) ? tuning::odds::LEANS : 0.0;
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),

@@ -77,17 +77,16 @@ public:
       found.push_back(c);
     });
   }
-  /** \brief Fits all; the best of each family, of those that were found before as well.
-   */
-  std::vector<ShapeCandidate> take(std::vector<ShapeCandidate> best = {}) {
+  /** \brief Fits all; the best of each family. */
+  std::vector<ShapeCandidate> take() {
     std::vector<std::vector<ShapeCandidate>> found(tasks_.size());
     parallelFor(tasks_.size(), problem_.options().threads, [&](std::size_t i) {
       tasks_[i](found[i]);
     });
+    std::vector<ShapeCandidate> best;
     for (const auto& candidates : found)
       for (const ShapeCandidate& c : candidates)
         add(c, best);
-    tasks_.clear();
     return best;
   }
 
@@ -101,7 +100,7 @@ private:
     ParameterSpace space = spaceOf(shape);
     if (upright_axis >= 0) {
       start = upright(start, upright_axis, problem_.up());
-      space = standing(space, upright_axis, start, problem_);
+      space = standing(space, upright_axis);
     }
     t.model = start;
     makeMember(t.model, shape);
@@ -201,66 +200,6 @@ Trial bestDescription(const ViewProblem& problem, Trial best) {
   return best;
 }
 
-/** \brief The axis of a body that is upright, or -1. */
-int uprightAxis(const ViewProblem& problem, const Superquadric& body) {
-  if (!problem.hasUp())
-    return -1;
-  int axis;
-  const double cosine =
-      (body.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&axis);
-  return cosine < UPRIGHT ? -1 : axis;
-}
-
-/** \brief A camera that is held level looks ahead or down on things: up lies across the
- * image's rows and is seen, and the best body with an axis there stands.
- * \return false if there is none */
-bool guessUp(ViewProblem& problem, std::vector<ShapeCandidate> found) {
-  const Eigen::Vector3d& rows = *problem.level();
-  const Eigen::Vector3d top = rows.cross(problem.view()).stableNormalized();
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return a.bic < b.bic;
-  });
-  for (const ShapeCandidate& c : found) {
-    if (c.shape == ShapeClass::ELLIPSOID)
-      continue;
-    int k = 2;
-    if (c.shape != ShapeClass::ROTATIONAL)
-      (c.model.rotation.transpose() * top).cwiseAbs().maxCoeff(&k);
-    const Eigen::Vector3d axis = c.model.rotation.col(k);
-    const Eigen::Vector3d across = axis - rows.dot(axis) * rows;
-    if (across.norm() < UPRIGHT || std::abs(across.dot(top)) < STEEPEST)
-      continue;
-    problem.standUp(across.dot(top) > 0.0 ? across.normalized() : -across.normalized());
-    return true;
-  }
-  return false;
-}
-
-struct ToStandUp {
-  ShapeClass shape;
-  Superquadric body;
-  int axis;
-};
-
-/** \brief Bodies that came to stand by themselves, where their family's upright member
- * is no better: it began elsewhere, and did not find there. */
-std::vector<ToStandUp> toStandUp(const ViewProblem& problem,
-                                 const std::vector<ShapeCandidate>& found) {
-  std::vector<ToStandUp> bodies;
-  for (const ShapeCandidate& c : found) {
-    const int axis = uprightAxis(problem, c.model);
-    if (c.upright || c.on_axis || c.shape == ShapeClass::ELLIPSOID || axis < 0 ||
-        (c.shape == ShapeClass::ROTATIONAL && axis != 2))
-      continue;
-    const bool known = std::any_of(found.begin(), found.end(), [&](const auto& other) {
-      return other.shape == c.shape && other.upright && other.bic <= c.bic;
-    });
-    if (!known)
-      bodies.push_back({c.shape, c.model, axis});
-  }
-  return bodies;
-}
-
 } // namespace
 
 void fitAgain(const ViewProblem& problem,
@@ -285,14 +224,14 @@ void fitAgain(const ViewProblem& problem,
   ParameterSpace space = chosen.on_axis ? coaxialSpace() : spaceOf(chosen.shape);
   for (int k = 0; k < 3 && chosen.upright; ++k)
     if (std::abs(t.model.rotation.col(k).dot(problem.up())) > UPRIGHT)
-      space = standing(space, k, t.model, problem);
+      space = standing(space, k);
   t = problem.minimise(t, points, kernels::Residual::FOOT_POINT, ITERATIONS, space);
   chosen.bic += t.cost - chosen.cost;
   chosen.cost = t.cost;
   chosen.model = t.model;
 }
 
-std::vector<ShapeCandidate> fitShapes(ViewProblem& problem, const Trial& first) {
+std::vector<ShapeCandidate> fitShapes(const ViewProblem& problem, const Trial& first) {
   const bool choose = problem.options().choose_shape;
   const Trial general = choose ? bestDescription(problem, first) : first;
   Families families(problem, general);
@@ -303,7 +242,13 @@ std::vector<ShapeCandidate> fitShapes(ViewProblem& problem, const Trial& first) 
     families.keep(general);
   if (!choose)
     return families.take();
-  const int standing_axis = uprightAxis(problem, m);
+  int standing_axis = -1;
+  if (problem.hasUp()) {
+    const double cosine =
+        (m.rotation.transpose() * problem.up()).cwiseAbs().maxCoeff(&standing_axis);
+    if (cosine < UPRIGHT)
+      standing_axis = -1;
+  }
   for (int k = 0; k < 3; ++k) {
     families.fit(ShapeClass::ROTATIONAL, withAxis(m, k), -1);
     if (k == standing_axis)
@@ -318,12 +263,7 @@ std::vector<ShapeCandidate> fitShapes(ViewProblem& problem, const Trial& first) 
   }
   if (problem.options().coaxial)
     families.fitCoaxial(problem.frame().toUnit(*problem.options().coaxial), m);
-  std::vector<ShapeCandidate> found = families.take();
-  if (problem.level() && !guessUp(problem, found))
-    return found;
-  for (const auto& [shape, body, axis] : toStandUp(problem, found))
-    families.fit(shape, body, axis);
-  return families.take(std::move(found));
+  return families.take();
 }
 
 } // namespace pcl_sq::detail

@@ -24,20 +24,6 @@ ParameterSpace standing(const ParameterSpace& space, int k) {
   return reduced;
 }
 
-ParameterSpace standing(const ParameterSpace& space,
-                        int k,
-                        const Superquadric& body,
-                        const ViewProblem& problem) {
-  ParameterSpace held = standing(space, k);
-  if (!problem.level())
-    return held;
-  const Eigen::Index last = held.basis.cols();
-  held.basis.conservativeResize(11, last + 1);
-  held.basis.col(last).setZero();
-  held.basis.col(last).segment<3>(3) = body.rotation.transpose() * *problem.level();
-  return held;
-}
-
 ParameterSpace spaceOf(ShapeClass shape) {
   switch (shape) {
   case ShapeClass::ROTATIONAL:

@@ -6,7 +6,6 @@
 #include "solver/descriptions.h"
 #include "solver/levenberg_marquardt.h"
 #include "tuning/view_tuning.h"
-#include "view_problem/view_problem.h"
 
 namespace pcl_sq::detail {
 
@@ -20,12 +19,5 @@ ParameterSpace spaceOf(ShapeClass shape);
 
 /** \brief Takes the directions of the space out that turn any axis but \a k. */
 ParameterSpace standing(const ParameterSpace& space, int k);
-
-/** \brief The same for a body that stands, whose axis \a k is upright: where up is only
- * known to lie across the image's rows, it may turn about them. */
-ParameterSpace standing(const ParameterSpace& space,
-                        int k,
-                        const Superquadric& body,
-                        const ViewProblem& problem);
 
 } // namespace pcl_sq::detail

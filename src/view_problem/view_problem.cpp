@@ -96,8 +96,7 @@ bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
   if (evidence.up) {
     has_up_ = true;
     up_ = (frame_.axes.transpose() * *evidence.up).normalized();
-  } else if (evidence.level && evidence.viewpoint)
-    level_ = (frame_.axes.transpose() * *evidence.level).normalized();
+  }
   noise_ = options.noise / frame_.scale;
   if (options.max_semi_axis > 0.0)
     max_axis_ = options.max_semi_axis / frame_.scale;

@@ -50,16 +50,7 @@ public:
   const UnitPoints& all() const { return all_; }
   const UnitPoints& medium() const { return medium_; }
   const UnitPoints& coarse() const { return coarse_; }
-  /** \brief Whether up is known, or was guessed by standUp(). */
   bool hasUp() const { return has_up_; }
-  /** \brief The image's rows where up is known to lie across them only: it may be
-   * turned about them. */
-  const std::optional<Eigen::Vector3d>& level() const { return level_; }
-  /** \brief Guesses which way up is. \pre level() */
-  void standUp(const Eigen::Vector3d& up) {
-    up_ = up;
-    has_up_ = true;
-  }
   bool hasView() const { return has_view_; }
   const Eigen::Vector3d& up() const { return up_; }
   const Eigen::Vector3d& view() const { return view_; }
@@ -77,7 +68,6 @@ private:
   Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();   ///< unit length
   Eigen::Vector3d view_ = Eigen::Vector3d::UnitZ(); ///< away from the camera
   std::optional<Eigen::Vector3d> eye_;              ///< the camera's place
-  std::optional<Eigen::Vector3d> level_;
   bool has_up_ = false, has_view_ = false;
   double noise_ = 0.0;
   double max_axis_ = 20.0;

@@ -96,46 +96,6 @@ TEST(ViewFit, PointsOfNoPrecisionHaveNoSay) {
   EXPECT_GT(even.fit.model.volume(), 1.03 * truth.volume());
 }
 
-TEST(ViewFit, WithoutATableACanStandsAcrossTheRowsOfTheImage) {
-  ViewScene scene;
-  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
-  scene.render(0.001);
-  ViewOptions view;
-  view.mask = scene.mask;
-  view.find_table = false;
-  ObservedObject observed;
-  ASSERT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, observed));
-  const ViewEvidence evidence = observed.evidence(observed.contour, 48, false);
-  ASSERT_FALSE(evidence.up);
-  ASSERT_TRUE(evidence.level);
-  const ViewFit fit = fitView(observed.points, evidence);
-  ASSERT_TRUE(fit.fit.ok());
-  EXPECT_TRUE(fit.chosen.upright);
-  EXPECT_NEAR(fit.fit.model.rotation.col(2).dot(*evidence.level), 0.0, 1e-6);
-}
-
-TEST(ViewFit, WithoutATableWhatLeansMayLean) {
-  ViewScene scene;
-  scene.addUpright({0.03, 0.03, 0.08}, 0.2, 1.0, 0.10);
-  const Eigen::Vector3d axis = scene.object.parts[0].rotation.col(2);
-  const Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ(); // of the camera
-  const Eigen::AngleAxisd turn(0.6, ahead);
-  scene.object.parts[0].rotation = turn * scene.object.parts[0].rotation;
-  scene.render(0.001);
-  ViewOptions view;
-  view.mask = scene.mask;
-  view.find_table = false;
-  ObservedObject observed;
-  ASSERT_TRUE(
-      observeObject(scene.points, scene.width, scene.height, {}, view, observed));
-  const ViewFit fit =
-      fitView(observed.points, observed.evidence(observed.contour, 48, false));
-  ASSERT_TRUE(fit.fit.ok());
-  EXPECT_FALSE(fit.chosen.upright);
-  EXPECT_GT(std::abs(fit.fit.model.rotation.col(2).dot(turn * axis)), 0.99);
-}
-
 TEST(ViewFit, TooFewPointsGiveNoModel) {
   const ViewFit fit = fitView(Eigen::Matrix3Xd::Random(3, 5), {});
   EXPECT_FALSE(fit.fit.ok());
