@@ -34,6 +34,7 @@ public:
     joinBodies();
     joinInterrupted();
     joinOverlapping();
+    joinInLine();
     joinFloating();
     std::vector<Patch> things;
     for (Patch& patch : list_)
@@ -104,7 +105,7 @@ private:
         if (std::min(list_[std::size_t(a)].pixels.size(),
                      list_[std::size_t(b)].pixels.size()) < SCRAP)
           continue;
-        if (areNear(a, b) || sameColor(a, b, ONE_COLOR))
+        if (areNear(a, b) || sameColor(a, b, ONE_COLOR) || mayShareRim(a, b))
           pairs.emplace_back(a, b);
       }
     return pairs;
@@ -195,6 +196,20 @@ private:
       if (which.first < 0)
         return;
       join(which.second, which.first);
+    }
+  }
+
+  /** \brief What goes on in a lower patch, such as a bottle above its label. */
+  void joinInLine() {
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (int a = 0; a < int(list_.size()) && !joined; ++a)
+        for (int b = 0; b < int(list_.size()) && !joined; ++b)
+          if (a != b && alive(a) && alive(b) && !stands(list_[std::size_t(a)]) &&
+              goesOnIn(a, b)) {
+            join(a, b);
+            joined = true;
+          }
     }
   }
 

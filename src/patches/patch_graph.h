@@ -42,6 +42,17 @@ protected:
   /** \brief Whether a patch ends at another thing before it, lower down, which may hide
    * its foot. */
   [[nodiscard]] bool isHiddenBelow(int a) const;
+  /** \brief Of a patch, across the view and level: the standard deviation of its points
+   * [m]. */
+  [[nodiscard]] double width(int a) const;
+  /** \brief Whether a patch goes on in a lower one: about one axis, of one width, and
+   * without a fold or a step between them. Of two things that is so by chance hardly
+   * ever. */
+  [[nodiscard]] bool goesOnIn(int upper, int lower) const;
+  /** \brief Whether two patches may be the inside and the outside of a vessel: they
+   * meet at an edge in depth and end at one height, the rim's, and one of them stands.
+   */
+  [[nodiscard]] bool mayShareRim(int a, int b) const;
   /** \brief How far a floating patch is from another, in sizes; infinite out of reach.
    */
   [[nodiscard]] double apart(int a, int b) const;

@@ -14,7 +14,6 @@ namespace {
 constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
 constexpr double SAME_PATCH = 1.5; ///< of whole patches
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr double FOLD = 0.7;       ///< angle of normals [rad], concave: surely a fold
 constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors

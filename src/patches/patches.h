@@ -9,6 +9,8 @@
 
 namespace pcl_sq::detail {
 
+constexpr double FOLD = 0.7; ///< angle of normals [rad], concave: surely a fold
+
 /** \brief Superpixels of one colour that hang together without a jump or a crease. */
 struct Patch {
   std::vector<int> pixels;

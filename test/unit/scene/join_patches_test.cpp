@@ -40,3 +40,37 @@ TEST(JoinPatches, WhatStandsOnALedgeIsAThingOfItsOwn) {
   const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true));
   EXPECT_EQ(scene.objects.size(), 2u) << scene.failure;
 }
+
+TEST(JoinPatches, WhatGoesOnAboveALabelIsOneThing) {
+  TableScene truth = fineScene();
+  truth.can().stand({0.0, 0.0}, {0.032, 0.032, 0.07}, 1.0, 1.0); // shoulders
+  truth.things[1].center.z() = 0.12;
+  const Scene scene = estimate(cloudOf(truth, truth.inCamera(), true));
+  EXPECT_EQ(scene.objects.size(), 1u) << scene.failure;
+}
+
+TEST(JoinPatches, APotWhoseInsideHasAnotherColourIsOneThing) {
+  TableScene truth = fineScene();
+  truth.stand({0.0, 0.0}, {0.07, 0.07, 0.05}, 0.1, 1.0);
+  truth.things[0].rim = 0.9;
+  truth.things[0].wall = 0.004;
+  auto cloud = cloudOf(truth, truth.inCamera(), true);
+  const LabelImage labels = truthOf(truth);
+  for (int y = 0; y < truth.height; ++y)
+    for (int x = 0; x < truth.width; ++x) {
+      const int i = y * truth.width + x;
+      if (labels.values[std::size_t(i)] == 0)
+        continue;
+      const Eigen::Vector3d at =
+          truth.camera.center +
+          truth.camera.rotation *
+              (*cloud)[std::size_t(i)].getVector3fMap().cast<double>();
+      if (at.head<2>().norm() < 0.068) { // the light falls into it
+        (*cloud)[std::size_t(i)].r = 200;
+        (*cloud)[std::size_t(i)].g = 120;
+        (*cloud)[std::size_t(i)].b = 50;
+      }
+    }
+  const Scene scene = estimate(cloud);
+  EXPECT_EQ(scene.objects.size(), 1u) << scene.failure;
+}
