@@ -64,10 +64,16 @@ double PatchGraph::offset(int a, int b) const {
   return (fa.middle - fb.middle).norm() / std::max(fa.radius, fb.radius);
 }
 
-bool PatchGraph::isWide(std::pair<int, int> pair, const Border& border) const {
+bool PatchGraph::isWide(std::pair<int, int> pair, int pixels) const {
   const std::size_t least = std::min(list_[std::size_t(pair.first)].pixels.size(),
                                      list_[std::size_t(pair.second)].pixels.size());
-  return double(border.pairs - border.jumps) > WIDE * std::sqrt(double(least));
+  return double(pixels) > WIDE * std::sqrt(double(least));
+}
+
+bool PatchGraph::isStep(std::pair<int, int> pair) const {
+  const auto border = borders_.find(pair);
+  return border != borders_.end() && !touches(border->second) &&
+         isWide(pair, border->second.jumps);
 }
 
 double PatchGraph::flush(std::pair<int, int> pair) const {
@@ -75,7 +81,8 @@ double PatchGraph::flush(std::pair<int, int> pair) const {
   if (found == borders_.end())
     return 0.0;
   const Border& border = found->second;
-  if (!touches(border) || !isWide(pair, border) || border.meanFold() >= CREASE)
+  if (!touches(border) || !isWide(pair, border.pairs - border.jumps) ||
+      border.meanFold() >= CREASE)
     return 0.0;
   return 2.0 * std::log(0.5 * M_PI / CREASE) * (border.pairs - border.jumps) /
          CORRELATION;
@@ -93,7 +100,8 @@ bool PatchGraph::goesOnIn(int upper, int lower) const {
   const std::pair<int, int> pair = std::minmax(upper, lower);
   const auto border = borders_.find(pair);
   if (border == borders_.end() || !touches(border->second) ||
-      !isWide(pair, border->second) || border->second.meanFold() >= FOLD ||
+      !isWide(pair, border->second.pairs - border->second.jumps) ||
+      border->second.meanFold() >= FOLD ||
       list_[std::size_t(lower)].low >= list_[std::size_t(upper)].low)
     return false;
   const double ratio = width(upper) / width(lower);

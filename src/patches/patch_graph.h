@@ -31,7 +31,10 @@ protected:
   /** \brief Distance of two footprints over the larger one's radius. */
   [[nodiscard]] double offset(int a, int b) const;
   /** \brief Whether two patches meet along a good share of the smaller one's width. */
-  [[nodiscard]] bool isWide(std::pair<int, int> pair, const Border& border) const;
+  [[nodiscard]] bool isWide(std::pair<int, int> pair, int pixels) const;
+  /** \brief Whether two patches meet at an edge in depth along a good share of the
+   * smaller one's width: one of them is before the other. */
+  [[nodiscard]] bool isStep(std::pair<int, int> pair) const;
   /** \brief Evidence for one thing where the surface goes on from one patch to the
    * other: of two things that meet, each place where neighbours' errors differ would
    * have to be flush by chance. */

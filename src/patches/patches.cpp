@@ -195,11 +195,10 @@ Between between(const SceneView& view, const Patch& a, const Patch& b) {
   int from = nearestTo(a, middle, view.width);
   const int to = nearestTo(b, pixelOf(from, view.width), view.width);
   from = nearestTo(a, pixelOf(to, view.width), view.width);
-  const Between nearest = along(view, from, to, own);
-  if (nearest.background)
-    return nearest;
-  const Between tops = along(view, highest(view, a), highest(view, b), own);
-  return {nearest.hidden && tops.background, nearest.hidden && !tops.background};
+  Between gap = along(view, from, to, own);
+  gap.apart_above =
+      gap.hidden && along(view, highest(view, a), highest(view, b), own).background;
+  return gap;
 }
 
 } // namespace pcl_sq::detail

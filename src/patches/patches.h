@@ -39,13 +39,14 @@ struct Patches {
 
 /** \brief What is seen between two patches. */
 struct Between {
-  bool background = false; ///< something beside them that hides neither
-  bool hidden = false;     ///< nothing but what hides them
+  bool background = false;  ///< something beside them that hides neither
+  bool hidden = false;      ///< nothing but what hides them
+  bool apart_above = false; ///< the same, but background between their highest places
 };
 
 /** \brief Looks along the line between two patches where they are nearest to each
  * other, and along that between their highest places: what parts one thing in two hides
- * it from its top to its foot. */
+ * it from its top to its foot, unless it is bent. */
 [[nodiscard]] Between between(const SceneView& view, const Patch& a, const Patch& b);
 
 /** \brief Joins patches that are one thing. */
