@@ -18,6 +18,7 @@ constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
 
+constexpr int ACROSS = 2;            ///< pixels, of missing ones between pieces
 constexpr int RIM = 3;               ///< pixels that matching windows fatten things by
 constexpr double LEAST_INSIDE = 0.1; ///< of the pixels of what is more than a rim
 
@@ -127,6 +128,31 @@ bool isThin(const std::vector<int>& pixels, int width, int height) {
         mask(x - RIM, y) && mask(x + RIM, y) && mask(x, y - RIM) && mask(x, y + RIM);
   }
   return double(inside) < LEAST_INSIDE * double(pixels.size());
+}
+
+std::vector<int> withoutStrays(const std::vector<int>& pixels, int width, int height) {
+  CellMask left(width, height);
+  for (const int c : pixels)
+    left.cells[std::size_t(c)] = 1;
+  std::vector<int> kept, piece;
+  for (const int start : pixels) {
+    if (!left.cells[std::size_t(start)])
+      continue;
+    piece.assign(1, start);
+    left.cells[std::size_t(start)] = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (int dy = -ACROSS; dy <= ACROSS; ++dy)
+        for (int dx = -ACROSS; dx <= ACROSS; ++dx) {
+          const int x = piece[i] % width + dx, y = piece[i] / width + dy;
+          if (!left(x, y))
+            continue;
+          left.cells[std::size_t(y * width + x)] = 0;
+          piece.push_back(y * width + x);
+        }
+    if (double(piece.size()) > STRAYS * double(pixels.size()))
+      kept.insert(kept.end(), piece.begin(), piece.end());
+  }
+  return kept;
 }
 
 Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {

@@ -37,6 +37,11 @@ struct Patches {
 /** \brief Whether pixels are but a rim, a few wide: no thing by itself. */
 [[nodiscard]] bool isThin(const std::vector<int>& pixels, int width, int height);
 
+/** \brief Leaves out what lies about alone: a pixel of a thing's colour far from it
+ * would be its outline. */
+[[nodiscard]] std::vector<int>
+withoutStrays(const std::vector<int>& pixels, int width, int height);
+
 /** \brief What is seen between two patches. */
 struct Between {
   bool background = false;  ///< something beside them that hides neither

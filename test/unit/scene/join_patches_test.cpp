@@ -110,3 +110,19 @@ TEST(JoinPatches, WhatHidesTheMiddleOfABentThingNeedNotReachOverItsEnds) {
   EXPECT_FALSE(gap.background);
   EXPECT_TRUE(gap.apart_above);
 }
+
+TEST(JoinPatches, AFlyingPixelOfAThingsColorIsNotItsOutline) {
+  constexpr int WIDTH = 60, HEIGHT = 40;
+  std::vector<int> pixels = {3 * WIDTH + 50};
+  int handle = 0;
+  for (int y = 10; y < 30; ++y)
+    for (int x = 5; x < 40; ++x)
+      if (const bool apart = x >= 33; x < 30 || (apart && y < 18)) {
+        pixels.push_back(y * WIDTH + x);
+        handle += apart;
+      }
+  ASSERT_GT(handle, 20);
+  const std::vector<int> kept = detail::withoutStrays(pixels, WIDTH, HEIGHT);
+  EXPECT_EQ(kept.size(), pixels.size() - 1);
+  EXPECT_EQ(std::count(kept.begin(), kept.end(), pixels.front()), 0);
+}
