@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/table_color.h"
 
+#include "scene/open_ground.h"
 #include "sensor/observation.h"
 
 #include <algorithm>
@@ -25,32 +26,6 @@ constexpr int MISSING = 4;       ///< pixels without depth that are bridged
 
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
-}
-
-/** \brief The largest set of pixels of a mask that hang together. */
-CellMask largestOf(CellMask left) {
-  CellMask largest(left.width, left.height);
-  std::vector<int> region, best;
-  const int w = left.width;
-  for (int start = 0; start < int(left.cells.size()); ++start) {
-    if (!left.cells[std::size_t(start)])
-      continue;
-    region.assign(1, start);
-    left.cells[std::size_t(start)] = 0;
-    for (std::size_t i = 0; i < region.size(); ++i) {
-      const int x = region[i] % w, y = region[i] / w;
-      for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
-        if (left(x + dx, y + dy)) {
-          region.push_back((y + dy) * w + x + dx);
-          left.cells[std::size_t(region.back())] = 0;
-        }
-    }
-    if (region.size() > best.size())
-      best.swap(region);
-  }
-  for (const int c : best)
-    largest.cells[std::size_t(c)] = 1;
-  return largest;
 }
 
 } // namespace
@@ -107,10 +82,7 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
   const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), half, values.end());
   like_ = std::max(LIKE_TABLE, OVER_MEDIAN * *half);
-  CellMask around = above;
-  for (std::uint8_t& cell : around.cells)
-    cell = !cell;
-  around = largestOf(std::move(around));
+  const CellMask around = openGround(above);
   // what things enclose is the table between them, or the floor of a pan
   level.erase(std::remove_if(level.begin(),
                              level.end(),
