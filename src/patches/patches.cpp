@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace pcl_sq::detail {
 
@@ -18,7 +20,7 @@ constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
 
-constexpr int ACROSS = 2;            ///< pixels, of missing ones between pieces
+constexpr int APART = 8;             ///< pixels, as far as a halo reaches
 constexpr int RIM = 3;               ///< pixels that matching windows fatten things by
 constexpr double LEAST_INSIDE = 0.1; ///< of the pixels of what is more than a rim
 
@@ -131,27 +133,41 @@ bool isThin(const std::vector<int>& pixels, int width, int height) {
 }
 
 std::vector<int> withoutStrays(const std::vector<int>& pixels, int width, int height) {
-  CellMask left(width, height);
-  for (const int c : pixels)
-    left.cells[std::size_t(c)] = 1;
-  std::vector<int> kept, piece;
-  for (const int start : pixels) {
-    if (!left.cells[std::size_t(start)])
-      continue;
-    piece.assign(1, start);
-    left.cells[std::size_t(start)] = 0;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (int dy = -ACROSS; dy <= ACROSS; ++dy)
-        for (int dx = -ACROSS; dx <= ACROSS; ++dx) {
-          const int x = piece[i] % width + dx, y = piece[i] / width + dy;
-          if (!left(x, y))
-            continue;
-          left.cells[std::size_t(y * width + x)] = 0;
-          piece.push_back(y * width + x);
-        }
-    if (double(piece.size()) > STRAYS * double(pixels.size()))
-      kept.insert(kept.end(), piece.begin(), piece.end());
+  CellMask left((width - 1) / APART + 1, (height - 1) / APART + 1);
+  const auto cellOf = [&](int c) {
+    return left.indexOf(c % width / APART, c / width / APART);
+  };
+  std::vector<int> inside(left.cells.size(), 0); // pixels of each cell
+  for (const int c : pixels) {
+    left.cells[cellOf(c)] = 1;
+    ++inside[cellOf(c)];
   }
+  std::vector<bool> is_stray(left.cells.size(), false);
+  std::vector<std::pair<int, int>> piece;
+  const auto take = [&](int x, int y) {
+    if (!left(x, y))
+      return;
+    left.cells[left.indexOf(x, y)] = 0;
+    piece.emplace_back(x, y);
+  };
+  for (const int c : pixels) {
+    piece.clear();
+    take(c % width / APART, c / width / APART);
+    int count = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto [x, y] = piece[i];
+      count += inside[left.indexOf(x, y)];
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          take(x + dx, y + dy);
+    }
+    for (const auto& [x, y] : piece)
+      is_stray[left.indexOf(x, y)] = double(count) < STRAYS * double(pixels.size());
+  }
+  std::vector<int> kept;
+  std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(kept), [&](int c) {
+    return !is_stray[cellOf(c)];
+  });
   return kept;
 }
 
