@@ -88,7 +88,30 @@ bool readBmp(const Bytes& bytes, ImageHeader& header) {
   return true;
 }
 
-/** \brief Numbers as text after the mark, with comments: P1 to P6, Pf, PF. */
+/** \brief Numbers as text between single blanks, without comments: width, height, and a
+ * scale that is not 0. OpenCV leaves a temporary file behind where it is otherwise. */
+bool readPfm(const std::string& text, ImageHeader& header) {
+  std::size_t at = 2;
+  const auto number = [&](auto& value) {
+    if (at >= text.size() || std::isspace(static_cast<unsigned char>(text[at])) == 0)
+      return false;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data() + at + 1, last, value);
+    at = std::size_t(end - text.data());
+    return error == std::errc();
+  };
+  double scale = 0.0;
+  if (!number(header.width) || !number(header.height) || !number(scale) ||
+      scale == 0.0 || at >= text.size() ||
+      std::isspace(static_cast<unsigned char>(text[at])) == 0)
+    return false;
+  if (header.width < 65536 && header.height < 65536)
+    header.least_bytes =
+        at + 1 + header.width * header.height * (text[1] == 'F' ? 3 : 1) * 4;
+  return true;
+}
+
+/** \brief Numbers as text after the mark, with comments: P1 to P6. */
 bool readPnm(const std::string& text, ImageHeader& header) {
   const char mark = text[1];
   std::size_t at = 2;
@@ -109,11 +132,10 @@ bool readPnm(const std::string& text, ImageHeader& header) {
   std::uint64_t largest = 255;
   if (!number(header.width) || !number(header.height))
     return false;
-  const bool floats = mark == 'f' || mark == 'F';
-  if (!floats && mark != '1' && mark != '4' && !number(largest))
+  if (mark != '1' && mark != '4' && !number(largest))
     return false;
-  const std::uint64_t channels = mark == '6' || mark == 'F' ? 3 : 1;
-  const std::uint64_t depth = floats ? 4 : largest > 255 ? 2 : 1;
+  const std::uint64_t channels = mark == '6' ? 3 : 1;
+  const std::uint64_t depth = largest > 255 ? 2 : 1;
   if (header.width >= 65536 || header.height >= 65536)
     return true; // refused for its size
   const std::uint64_t values = header.width * header.height * channels;
@@ -168,8 +190,10 @@ bool readImageHeader(const std::string& bytes, ImageHeader& header, std::string*
     whole = readJpeg(b, header);
   else if (b.startsWith("BM", 2))
     whole = readBmp(b, header);
+  else if (b.startsWith("Pf", 2) || b.startsWith("PF", 2))
+    whole = readPfm(bytes, header);
   else if (bytes.size() > 2 && bytes[0] == 'P' &&
-           std::string("123456fF").find(bytes[1]) != std::string::npos)
+           std::string("123456").find(bytes[1]) != std::string::npos)
     whole = readPnm(bytes, header);
   else if (b.startsWith("II*\0", 4) || b.startsWith("MM\0*", 4))
     whole = readTiff(b, bytes[0] == 'I', header);
