@@ -14,10 +14,9 @@ inline Float angleOf(Float x, Float y) {
   const auto large = ratio > all(0.41421356F); // tan(pi / 8)
   const Float t = select(large, (ratio - 1.0F) * inverse(ratio + 1.0F), ratio);
   const Float t2 = t * t;
-  const Float p = ((8.05374449538e-2F * t2 - 1.38776856032e-1F) * t2 +
-                   1.99777106478e-1F) *
-                      t2 -
-                  3.33329491539e-1F;
+  const Float p =
+      ((8.05374449538e-2F * t2 - 1.38776856032e-1F) * t2 + 1.99777106478e-1F) * t2 -
+      3.33329491539e-1F;
   Float angle = p * t2 * t + t + select(large, all(0.78539816F), all(0.0F));
   angle = select(ay > ax, 1.57079633F - angle, angle);
   angle = select(x < all(0.0F), 3.14159265F - angle, angle);
@@ -36,11 +35,10 @@ inline Turn turnBy(Float angle) {
   const Float sine =
       ((-1.9515295891e-4F * q2 + 8.3321608736e-3F) * q2 - 1.6666654611e-1F) * q2 * q +
       q;
-  const Float versine = 0.5F * q2 - ((2.443315711809948e-5F * q2 -
-                                      1.388731625493765e-3F) *
-                                         q2 +
-                                     4.166664568298827e-2F) *
-                                        q2 * q2;
+  const Float versine =
+      0.5F * q2 - ((2.443315711809948e-5F * q2 - 1.388731625493765e-3F) * q2 +
+                   4.166664568298827e-2F) *
+                      q2 * q2;
   const Float half = 2.0F * sine * (1.0F - versine); // of half the angle
   const Float half_cosine = 1.0F - 2.0F * sine * sine;
   return {2.0F * half * half_cosine, 2.0F * half * half};
@@ -128,11 +126,8 @@ inline Row bentRow(const Lanes& l, const Circle& c, const Vector& y) {
 }
 
 template <bool ROBUST>
-void bentSums(const Points& points,
-              const Shape& shape,
-              float bend,
-              const Mixture& m,
-              Sums& out) {
+void bentSums(
+    const Points& points, const Shape& shape, float bend, const Mixture& m, Sums& out) {
   alignas(64) float rows[ROWS][BLOCK];
   const Lanes l = spread(shape);
   const Circle circle = {all(bend), all(1.0F / bend)};
@@ -150,11 +145,8 @@ void bentSums(const Points& points,
   sums.end();
 }
 
-inline void bentEquations(const Points& points,
-                          const Shape& shape,
-                          float bend,
-                          const Mixture& m,
-                          Sums& out) {
+inline void bentEquations(
+    const Points& points, const Shape& shape, float bend, const Mixture& m, Sums& out) {
   if (m.outlier > 0.0F)
     bentSums<true>(points, shape, bend, m, out);
   else
@@ -169,8 +161,7 @@ bentResiduals(const Points& points, const Shape& shape, float bend, float* out) 
   for (std::size_t i = 0; i < points.count; i += LANES) {
     store(rest, bentRow(l, circle, local(l, points, i)).residual);
     const std::size_t left = points.count - i;
-    __builtin_memcpy(
-        out + i, rest, (left < LANES ? left : LANES) * sizeof(float));
+    __builtin_memcpy(out + i, rest, (left < LANES ? left : LANES) * sizeof(float));
   }
 }
 

@@ -110,8 +110,7 @@ inline void outlineDistances(const Points& points,
       square = min(square, squareToCurve(o.coarse[k], o.fine[k], rho, p.z));
     store(rest, sideOf(o, rho, p.z) * sqrt(square));
     const std::size_t left = points.count - i;
-    __builtin_memcpy(
-        out + i, rest, (left < LANES ? left : LANES) * sizeof(float));
+    __builtin_memcpy(out + i, rest, (left < LANES ? left : LANES) * sizeof(float));
   }
 }
 
@@ -168,13 +167,8 @@ vesselRow(const Vessel& v, const Vector& p, float (&rows)[ROWS][BLOCK], std::siz
   Float nearest = far, which = none;
   for (int k = 0; k < v.count; ++k) {
     const VesselChord& c = v.chords[k];
-    const Float square = squareTo(all(c.x),
-                                  all(c.y),
-                                  all(c.along_x),
-                                  all(c.along_y),
-                                  all(c.inverse),
-                                  rho,
-                                  p.z);
+    const Float square = squareTo(
+        all(c.x), all(c.y), all(c.along_x), all(c.along_y), all(c.inverse), rho, p.z);
     const auto nearer =
         (square < nearest) & ((k < v.outer ? walls.outer : walls.inner) > none);
     which = select(nearer, all(float(k)), which);
@@ -182,8 +176,8 @@ vesselRow(const Vessel& v, const Vector& p, float (&rows)[ROWS][BLOCK], std::siz
   }
   const NearChord c = chordsOf(v, which);
   const Float dx = rho - c.x, dy = p.z - c.y;
-  const Float t = min(max((dx * c.along_x + dy * c.along_y) * c.inverse, none),
-                      all(1.0F));
+  const Float t =
+      min(max((dx * c.along_x + dy * c.along_y) * c.inverse, none), all(1.0F));
   const Float off_x = dx - t * c.along_x, off_y = dy - t * c.along_y;
   // beside a chord the normal is the chord's, however near the point is
   const Float root = sqrt(c.inverse);

@@ -85,6 +85,11 @@ void addHiddenEnds(const ObservedObject& object,
                    ViewEvidence& evidence) {
   if (object.pixels.cells.empty())
     return;
+  const bool all_own = std::all_of(object.contour.begin(),
+                                   object.contour.end(),
+                                   [](const ContourPoint& p) { return p.own; });
+  if (all_own && !(object.table && object.hidden_below))
+    return; // nothing of it is hidden
   const auto endOf = [&object](const SilhouetteLine& line) {
     TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
     end.sigma = HIDDEN_SIGMA * object.extent;

@@ -71,9 +71,12 @@ bool detail::findPlane(const std::vector<Eigen::Vector3d>& points,
     TableModel t;
     t.normal = normal.normalized();
     t.offset = -t.normal.dot(a);
+    // given up once all that are left cannot make it the best
+    constexpr std::size_t AT_ONCE = 64;
     std::size_t votes = 0;
-    for (const Eigen::Vector3d& p : sample)
-      votes += std::abs(t.height(p)) <= inlier_distance;
+    for (std::size_t i = 0; i < SAMPLE && votes + (SAMPLE - i) > best; i += AT_ONCE)
+      for (std::size_t j = i; j < std::min(i + AT_ONCE, std::size_t(SAMPLE)); ++j)
+        votes += std::abs(t.height(sample[j])) <= inlier_distance;
     if (votes > best) {
       best = votes;
       plane = t;
