@@ -96,12 +96,28 @@ PanelInput panelInput(const StereoView& front,
   return in;
 }
 
-void writeFront(const StereoView& front, const Outputs& outputs) {
+/** \brief The whole pair in full detail: of what is not the object, models need less.
+ */
+StereoResult wholeOf(const StereoResult& stereo, StereoOptions options) {
+  if (stereo.detail.empty())
+    return stereo;
+  options.check_order = false; // the order was seen to be right
+  StereoReprojector reprojector(StereoCalibration::fromRectified(stereo.intrinsics));
+  reprojector.setOptions(options);
+  return reprojector.compute(stereo.left, stereo.right);
+}
+
+void writeFront(const StereoView& front,
+                const StereoOptions& options,
+                const Outputs& outputs) {
   const StereoIntrinsics& k = front.stereo.intrinsics;
-  if (!outputs.disparity.empty())
-    writeDisparity(outputs.disparity, front.stereo.disparity);
-  if (!outputs.cloud.empty())
-    writeCloud(outputs.cloud, *front.stereo.cloud);
+  if (!outputs.disparity.empty() || !outputs.cloud.empty()) {
+    const StereoResult whole = wholeOf(front.stereo, options);
+    if (!outputs.disparity.empty())
+      writeDisparity(outputs.disparity, whole.disparity);
+    if (!outputs.cloud.empty())
+      writeCloud(outputs.cloud, *whole.cloud);
+  }
   if (!outputs.mask.empty() && !front.segment.mask.empty())
     writeImage(outputs.mask, front.segment.mask);
   if (!outputs.histogram.empty())
@@ -171,7 +187,7 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   line.clear();
   for (const std::string& sentence : front.notes)
     note(sentence);
-  writeFront(front, outputs);
+  writeFront(front, pipeline->getOptions().stereo, outputs);
   StereoModel made = makeStereoModel(front_options, front, model);
   line.clear();
   const ModelResult& result = made.result;

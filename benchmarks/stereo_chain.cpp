@@ -2,7 +2,8 @@
 // From a decoded pair to the model: each stage, and the whole chain cold, warm and in a
 // sequence. CPU times are those of all threads.
 //   pcl_sq_benchmark_stereo_chain FOLDER [options of Google Benchmark]
-// FOLDER holds left.png, right.png and calib.yml, as pcl_sq_render writes them.
+// FOLDER holds left.png, right.png, mask.png and calib.yml, as pcl_sq_render writes
+// them.
 #include "pcl_sq/stereo/stereo_pipeline.h"
 
 #include <benchmark/benchmark.h>
@@ -20,6 +21,7 @@ namespace {
 struct Pair {
   cv::Mat left, right;
   StereoCalibration calibration;
+  StereoHint box; ///< as a hand draws it
 } pair;
 
 StereoReprojector reprojector(bool refine) {
@@ -84,8 +86,11 @@ void chainCold(benchmark::State& state) {
 }
 
 /** \brief The first frame is not counted. */
-void chain(benchmark::State& state, bool following) {
+void chain(benchmark::State& state, bool following, const StereoHint& hint = {}) {
   StereoPipeline chain = pipeline(following);
+  StereoPipelineOptions options = chain.getOptions();
+  options.hint = hint;
+  chain.setOptions(options);
   StereoObject result;
   if (!chain.process(pair.left, pair.right, result))
     state.SkipWithError(result.failure.c_str());
@@ -110,7 +115,8 @@ void add(const char* name, void (*run)(benchmark::State&)) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (argc != 2) {
-    std::fputs("give a folder with left.png, right.png and calib.yml.\n", stderr);
+    std::fputs("give a folder with left.png, right.png, mask.png and calib.yml.\n",
+               stderr);
     return 2;
   }
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
@@ -118,12 +124,17 @@ int main(int argc, char** argv) {
   pair.left = cv::imread(folder + "left.png");
   pair.right = cv::imread(folder + "right.png");
   pair.calibration = StereoCalibration::load(folder + "calib.yml");
+  const CellRect mask = boundingRect(cv::imread(folder + "mask.png", 0));
+  constexpr int OFF = 8; // of a box that is drawn [px]
+  pair.box.box = {
+      mask.x - OFF, mask.y - OFF, mask.width + 2 * OFF, mask.height + 2 * OFF};
   add("cloud/matched", [](benchmark::State& s) { cloud(s, false); });
   add("cloud/refined", [](benchmark::State& s) { cloud(s, true); });
   add("segment", segment);
   add("model", model);
   add("chain/cold", chainCold);
   add("chain/warm", [](benchmark::State& s) { chain(s, false); });
+  add("chain/box", [](benchmark::State& s) { chain(s, false, pair.box); });
   add("chain/sequence", [](benchmark::State& s) { chain(s, true); });
   benchmark::RunSpecifiedBenchmarks();
   return 0;

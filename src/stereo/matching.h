@@ -7,6 +7,8 @@
 
 namespace pcl_sq::detail {
 
+constexpr double DISPARITY_STEP = 1.0 / 16.0; ///< of OpenCV's matchers [px]
+
 /** \brief Searched disparities [low, low + count) [px]; count a multiple of 16. */
 struct DisparityRange {
   int low = 0;

@@ -20,7 +20,7 @@ constexpr int HALF = 4; ///< of the window's side [px]
 /** Weights of a window's rows and columns, exp(-x^2 / 8). */
 constexpr float BELL[2 * HALF + 1] = {
     0.135F, 0.325F, 0.607F, 0.882F, 1.0F, 0.882F, 0.607F, 0.325F, 0.135F};
-constexpr int BLOCK = 8;          ///< windows that are summed at once
+constexpr int LARGEST_BLOCK = 16; ///< windows that are summed at once
 constexpr int PASSES = 4;         ///< Gauss-Newton steps
 constexpr float GATE = 1.0F;      ///< how far a neighbour may lie off the plane [px]
 constexpr float MAX_MOVE = 1.5F;  ///< from the matcher's disparity [px]
@@ -50,7 +50,7 @@ struct State {
                        HALF,
                        HALF,
                        HALF,
-                       HALF + BLOCK,
+                       HALF + LARGEST_BLOCK,
                        cv::BORDER_CONSTANT,
                        cv::Scalar(NOTHING));
     for (cv::Mat* m : {&slope_u, &slope_v, &weight, &moment})
@@ -134,9 +134,11 @@ void lineariseRow(const Comparison& c, int v, State& s) {
 /** \brief Over the windows of pixels side by side: 1, u, v, uu, uv, vv of the weights;
  * 1, u, v of the wanted change. Sums of several windows at once, so that compilers make
  * vectors of them. */
+template <int BLOCK>
 using Sums = float[9][BLOCK];
 
-PCL_SQ_INLINE void sumWindows(const State& s, int v, int u, Sums& sums) {
+template <int BLOCK>
+PCL_SQ_INLINE void sumWindows(const State& s, int v, int u, Sums<BLOCK>& sums) {
   const auto* slope_u = row(s.slope_u, v) + u;
   const auto* slope_v = row(s.slope_v, v) + u;
   float centre[BLOCK]; // whatever where it is missing: nobody looks at those sums
@@ -185,8 +187,9 @@ PCL_SQ_INLINE void sumWindows(const State& s, int v, int u, Sums& sums) {
 }
 
 /** \brief Solves one window's three equations by elimination; the new plane. */
+template <int BLOCK>
 PCL_SQ_INLINE void
-solve(const State& s, int v, int u, const Sums& sums, int k, State& next) {
+solve(const State& s, int v, int u, const Sums<BLOCK>& sums, int k, State& next) {
   auto& out = row(next.disparity, v)[u];
   const float d = row(s.disparity, v)[u];
   out = NOTHING;
@@ -211,19 +214,20 @@ solve(const State& s, int v, int u, const Sums& sums, int k, State& next) {
   row(next.slope_v, v)[u] = static_cast<float>(std::clamp(b, -bound, bound));
 }
 
+template <int BLOCK>
 PCL_SQ_INLINE void moveRowHere(const State& s, int v, int width, State& next) {
-  Sums sums;
+  Sums<BLOCK> sums;
   for (int u = 0; u < width; u += BLOCK) {
-    sumWindows(s, v, u, sums);
+    sumWindows<BLOCK>(s, v, u, sums);
     for (int k = 0; k < std::min(BLOCK, width - u); ++k)
-      solve(s, v, u + k, sums, k, next);
+      solve<BLOCK>(s, v, u + k, sums, k, next);
   }
 }
 
 using MoveRow = void(const State& s, int v, int width, State& next);
 
 void moveRow(const State& s, int v, int width, State& next) {
-  moveRowHere(s, v, width, next);
+  moveRowHere<8>(s, v, width, next);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -231,10 +235,16 @@ void moveRow(const State& s, int v, int width, State& next) {
  * and nothing is fused. */
 __attribute__((target("avx2"))) void
 moveRowAvx2(const State& s, int v, int width, State& next) {
-  moveRowHere(s, v, width, next);
+  moveRowHere<8>(s, v, width, next);
+}
+__attribute__((target("avx512f"))) void
+moveRowAvx512(const State& s, int v, int width, State& next) {
+  moveRowHere<LARGEST_BLOCK>(s, v, width, next);
 }
 
 MoveRow* fastestMoveRow() {
+  if (__builtin_cpu_supports("avx512f") != 0)
+    return moveRowAvx512;
   return __builtin_cpu_supports("avx2") != 0 ? moveRowAvx2 : moveRow;
 }
 #else

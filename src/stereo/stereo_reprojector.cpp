@@ -19,8 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double SIGMAS = 3.0;                ///< beyond which two disparities differ
-constexpr double DISPARITY_STEP = 1.0 / 16.0; ///< of OpenCV's matchers [px]
+constexpr double SIGMAS = 3.0; ///< beyond which two disparities differ
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -136,7 +135,7 @@ cv::Mat StereoReprojector::computeDisparity(const cv::Mat& left,
     // d + doffs = 0 is infinitely far; less than the matcher's step cannot be told from
     // it
     disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
-                    disparity < DISPARITY_STEP - intrinsics.doffs);
+                    disparity < detail::DISPARITY_STEP - intrinsics.doffs);
     share = static_cast<double>(cv::countNonZero(disparity > -FLT_MAX)) /
             static_cast<double>(disparity.total());
   }
@@ -173,48 +172,20 @@ StereoResult StereoReprojector::compute(const cv::Mat& left, const cv::Mat& righ
   try {
     match(result);
   } catch (const Exception&) {
-    // exchanged raw images do not even lie on the same lines; try the other maps
-    cv::Mat other_left, other_right;
-    calibration_.rectify(right, left, other_left, other_right);
-    const bool raw = !calibration_.isRectified();
-    if (options_.check_order && raw &&
-        detail::voteOnOrder(other_left, other_right).given > 0.2)
-      raise("the images match only the other way round; exchange left and right.");
+    checkOrder(left, right);
     throw;
   }
   return result;
 }
 
-StereoResult StereoReprojector::compute(const cv::Mat& left,
-                                        const cv::Mat& right,
-                                        const StereoWindow& window) {
-  StereoResult result = rectified(left, right);
-  StereoIntrinsics& k = result.intrinsics;
-  // the window of the right image is moved by the disparity of the middle depth, so
-  // that both together are a pair of their own with another offset
-  const auto shift = static_cast<int>(std::lround(
-      0.5 * (k.disparity(window.min_depth) + k.disparity(window.max_depth))));
-  const cv::Rect all(0, 0, result.left.cols, result.left.rows);
-  const cv::Rect wanted(
-      window.rect.x, window.rect.y, window.rect.width, window.rect.height);
-  const cv::Rect here = wanted & all & (all + cv::Point(shift, 0));
-  if (here.width < 32 || here.height < 32)
-    raise("the window lies outside of the images; give one within them.");
-  result.window = {here.x, here.y, here.width, here.height};
-  result.left = result.left(here).clone();
-  result.right = result.right(here - cv::Point(shift, 0)).clone();
-  k.cx -= here.x;
-  k.cy -= here.y;
-  k.width = here.width;
-  k.height = here.height;
-  k.doffs += shift;
-  StereoReprojector part;
-  part.options_ = options_;
-  part.options_.min_depth = window.min_depth;
-  part.options_.max_depth = window.max_depth;
-  part.options_.check_order = false;
-  part.match(result);
-  return result;
+void StereoReprojector::checkOrder(const cv::Mat& left, const cv::Mat& right) {
+  if (!options_.check_order || calibration_.isRectified())
+    return;
+  // exchanged raw images do not even lie on the same lines; try the other maps
+  cv::Mat other_left, other_right;
+  calibration_.rectify(right, left, other_left, other_right);
+  if (detail::voteOnOrder(other_left, other_right).given > 0.2)
+    raise("the images match only the other way round; exchange left and right.");
 }
 
 void StereoReprojector::match(StereoResult& result) const {

@@ -30,11 +30,13 @@ inline cv::Mat toMat(app::RenderedImage image) {
 }
 
 /** \param[in] seed of the textures and the noise */
-inline StereoScene
-renderScene(const std::string& name, double noise = 1.0, std::uint64_t seed = 1) {
+inline StereoScene renderScene(const std::string& name,
+                               double noise = 1.0,
+                               std::uint64_t seed = 1,
+                               int scale = 1) {
   StereoScene s;
   s.object = app::makeObject(name);
-  s.rig = app::makeRig(320, 240, 405.8, 0.12);
+  s.rig = app::makeRig(320 * scale, 240 * scale, 405.8 * scale, 0.12);
   const Eigen::Vector3d center(0.0, 0.0, s.object.distance);
   s.scene = app::placeOnTable(s.object.box(), center, s.object.yaw, 0.17);
   s.scene.color = s.object.color;

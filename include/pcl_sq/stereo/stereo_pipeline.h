@@ -114,6 +114,9 @@ private:
     double min_depth = 0.0, max_depth = 0.0; ///< [m]
   };
 
+  /** \brief As see(), but only the object's surroundings in full detail. \return
+   * whether that was worth it */
+  bool seeClosely(const cv::Mat& left, const cv::Mat& right, StereoView& view);
   bool followPair(const cv::Mat& left, const cv::Mat& right, StereoView& view);
   /** \brief The last outline, cut anew. \return whether it is the same thing's */
   bool followMask(StereoView& view) const;

@@ -30,7 +30,10 @@ struct StereoResult {
   /** Part of the rectified left image that all of these belong to, cloud, images and
    * intrinsics alike; empty: the whole image. */
   CellRect window;
-  /** Stages and their times [ms]: rectify, match, reproject. */
+  /** Part that was matched in full detail where the rest was matched at half its size;
+   * empty: no such part. */
+  CellRect detail;
+  /** Stages and their times [ms]: rectify, overview, match ... */
   std::vector<std::pair<std::string, double>> timings_ms;
 };
 
@@ -67,6 +70,16 @@ public:
   StereoResult
   compute(const cv::Mat& left, const cv::Mat& right, const StereoWindow& window);
 
+  /** \brief The whole pair at half its size, an eighth of the work. The result is as
+   * large as compute()'s; its noise says that it is coarser. \throws pcl_sq::Exception
+   * as compute() */
+  StereoResult computeCoarse(const cv::Mat& left, const cv::Mat& right);
+
+  /** \brief Matches a part of a pair anew, as finely as compute() does.
+   * \param[in,out] scene of computeCoarse() \param[in] part of its image
+   * \throws pcl_sq::Exception if that part is smaller than 32 x 32 px */
+  void computeDetail(StereoResult& scene, const CellRect& part) const;
+
   /** \brief Disparity of a rectified pair, CV_32F [px], NaN where nothing matched.
    * \throws pcl_sq::Exception as compute() */
   cv::Mat computeDisparity(const cv::Mat& left,
@@ -76,6 +89,11 @@ public:
 private:
   StereoResult rectified(const cv::Mat& left, const cv::Mat& right);
   void match(StereoResult& result) const;
+  /** \brief A part of a rectified pair, as a pair of its own. */
+  StereoResult matchWindow(const StereoResult& pair, const StereoWindow& window) const;
+  /** \brief Asked where little matches. \throws pcl_sq::Exception if the raw images
+   * match the other way round */
+  void checkOrder(const cv::Mat& left, const cv::Mat& right);
 
   StereoCalibration calibration_;
   StereoOptions options_;

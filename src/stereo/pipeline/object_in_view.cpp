@@ -5,6 +5,7 @@
 #include "pcl_sq/roi_estimator.h"
 #include "pcl_sq/stereo/texture_border_filter.h"
 #include "stereo/pipeline/texture_check.h"
+#include "stereo/segmentation/depth_objects.h"
 
 #include <opencv2/core.hpp>
 
@@ -98,6 +99,59 @@ pcl::Indices straysOf(const StereoView& view, const pcl::Indices& under_mask) {
 }
 
 } // namespace
+
+CellRect around(const CellRect& box, double share) {
+  constexpr int LEAST = 48; // as wide as some matched windows [px]
+  const int dx = std::max(LEAST, static_cast<int>(share * box.width));
+  const int dy = std::max(LEAST, static_cast<int>(share * box.height));
+  return {box.x - dx, box.y - dy, box.width + 2 * dx, box.height + 2 * dy};
+}
+
+bool worthACloseLook(const StereoPipelineOptions& options, const cv::Size& size) {
+  constexpr int SMALL = 600; // as for the sizes of block matching [px]
+  return options.stereo.matcher == StereoMatcher::SGBM && !options.stereo.wls &&
+         size.width >= SMALL;
+}
+
+namespace {
+
+/** \brief Box of the thing on the table, found among a quarter of the points. */
+CellRect roughlyOnTable(const StereoResult& scene) {
+  pcl::PointCloud<pcl::PointXYZRGB> some;
+  const auto& all = *scene.cloud;
+  some.resize(std::size_t(all.width / 2) * (all.height / 2));
+  some.width = all.width / 2;
+  some.height = all.height / 2;
+  some.is_dense = false;
+  for (std::uint32_t v = 0; v < some.height; ++v)
+    for (std::uint32_t u = 0; u < some.width; ++u)
+      some.at(int(u), int(v)) = all.at(int(2 * u), int(2 * v));
+  cv::Mat rough;
+  std::string why;
+  if (!findTableObject(some, rough, why))
+    raise(why + ".");
+  const CellRect box = boundingRect(rough);
+  return {2 * box.x, 2 * box.y, 2 * box.width, 2 * box.height};
+}
+
+} // namespace
+
+CellRect surroundings(const StereoPipelineOptions& options,
+                      const StereoResult& coarse) {
+  // outlines are cut with the background that far around
+  const double share = SegmenterOptions().margin;
+  const StereoHint& hint = options.hint;
+  const CellRect box = !hint.box.empty()    ? hint.box
+                       : !hint.mask.empty() ? boundingRect(hint.mask)
+                       : hint.empty()       ? roughlyOnTable(coarse)
+                                            : findObject(options, coarse).rect;
+  const CellRect part = around(box, share);
+  const int x = std::max(0, part.x), y = std::max(0, part.y);
+  return {x,
+          y,
+          std::min(coarse.intrinsics.width, part.x + part.width) - x,
+          std::min(coarse.intrinsics.height, part.y + part.height) - y};
+}
 
 Segment findObject(const StereoPipelineOptions& options, const StereoResult& scene) {
   const StereoHint& hint = options.hint;

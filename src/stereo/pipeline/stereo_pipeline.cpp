@@ -18,7 +18,7 @@ namespace {
 
 /** \brief How far outline and box may move from frame to frame, in sides of the box: as
  * far as a table around the object is seen, too. */
-constexpr double REACH = 0.25;
+constexpr double FOLLOWED = 0.25;
 /** \brief Share of two outlines that both hold of what any of them holds, below which
  * they are not those of one thing a moment later. Looking anew costs time and nothing
  * else, an outline that is wrong costs the model: a can of another colour kept 0.5. */
@@ -26,15 +26,6 @@ constexpr double SAME = 0.8;
 
 cv::Rect rectOf(const CellRect& r) {
   return {r.x, r.y, r.width, r.height};
-}
-
-/** \brief The surroundings of an outline. */
-CellRect around(const cv::Mat& mask) {
-  constexpr int LEAST = 48; // as wide as some matched windows [px]
-  const cv::Rect box = cv::boundingRect(mask);
-  const int dx = std::max(LEAST, static_cast<int>(REACH * box.width));
-  const int dy = std::max(LEAST, static_cast<int>(REACH * box.height));
-  return {box.x - dx, box.y - dy, box.width + 2 * dx, box.height + 2 * dy};
 }
 
 /** \brief The last outline where its picture is found now; empty where it is not.
@@ -98,7 +89,8 @@ StereoView StereoPipeline::look(const cv::Mat& left, const cv::Mat& right) {
   StereoView view;
   if (following_ && last_ && followPair(left, right, view))
     return view;
-  view = see(left, right);
+  if (!seeClosely(left, right, view))
+    view = see(left, right);
   finish(view);
   return view;
 }
@@ -111,14 +103,42 @@ StereoView StereoPipeline::look(StereoResult&& scene) {
   return view;
 }
 
+bool StereoPipeline::seeClosely(const cv::Mat& left,
+                                const cv::Mat& right,
+                                StereoView& view) {
+  if (!detail::worthACloseLook(options_, left.size()))
+    return false;
+  if (options_.progress)
+    options_.progress("match", 0.0);
+  try {
+    view.stereo = reprojector_.computeCoarse(left, right);
+    const CellRect part = detail::surroundings(options_, view.stereo);
+    if (part.width * part.height > detail::LARGEST_PART * double(left.total())) {
+      view = {};
+      return false;
+    }
+    reprojector_.computeDetail(view.stereo, part);
+  } catch (const Exception&) { // all of the pair tells more, and why there is nothing
+    view = {};
+    return false;
+  }
+  view.notes = getCalibration().getNotes();
+  view.timings_ms = view.stereo.timings_ms;
+  return true;
+}
+
 bool StereoPipeline::followPair(const cv::Mat& left,
                                 const cv::Mat& right,
                                 StereoView& view) {
   if (left.size() != last_->mask.size())
     return false;
   try {
-    view.stereo = reprojector_.compute(
-        left, right, {around(last_->mask), last_->min_depth, last_->max_depth});
+    view.stereo =
+        reprojector_.compute(left,
+                             right,
+                             {detail::around(boundingRect(last_->mask), FOLLOWED),
+                              last_->min_depth,
+                              last_->max_depth});
     view.timings_ms = view.stereo.timings_ms;
     if (!followMask(view))
       return false;
@@ -202,8 +222,8 @@ void StereoPipeline::remember(const StereoView& view) {
   // its depth
   constexpr double MOVES = 0.1, FEW = 0.01;
   std::vector<float> depths;
-  const cv::Rect near =
-      rectOf(around(view.segment.mask)) & cv::Rect({}, view.segment.mask.size());
+  const cv::Rect near = rectOf(detail::around(view.segment.rect, FOLLOWED)) &
+                        cv::Rect({}, view.segment.mask.size());
   for (int y = near.y; y < near.y + near.height; y += 2)
     for (int x = near.x; x < near.x + near.width; x += 2)
       if (const float z = view.stereo.cloud->at(x, y).z; std::isfinite(z))

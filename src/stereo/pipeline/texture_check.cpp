@@ -21,8 +21,14 @@ cv::Mat grey(const cv::Mat& image) {
 } // namespace
 
 TexturedShare
-texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
+texturedShare(const StereoResult& stereo, const cv::Mat& object, int block) {
   constexpr double SHARED = 0.5;
+  // windows of the object's pixels see this much
+  const cv::Rect box = cv::boundingRect(object);
+  const cv::Rect here = cv::Rect(box.tl() - cv::Point(block, block),
+                                 box.size() + cv::Size(2 * block, 2 * block)) &
+                        cv::Rect({}, object.size());
+  const cv::Mat mask = object(here);
   cv::Mat inner;
   cv::erode(mask,
             inner,
@@ -34,16 +40,16 @@ texturedShare(const StereoResult& stereo, const cv::Mat& mask, int block) {
   const int count = cv::countNonZero(inner);
   if (count < block * block)
     return {};
-  const cv::Mat& disparity = stereo.disparity;
+  const cv::Mat disparity = stereo.disparity(here);
   cv::Mat x(disparity.size(), CV_32F), y(disparity.size(), CV_32F);
   cv::Mat known = disparity > -FLT_MAX; // 0 for NaN, else 255
   for (int v = 0; v < disparity.rows; ++v)
     for (int u = 0; u < disparity.cols; ++u) {
       const float d = disparity.at<float>(v, u);
-      x.at<float>(v, u) = static_cast<float>(u) - (std::isnan(d) ? 0.0f : d);
-      y.at<float>(v, u) = static_cast<float>(v);
+      x.at<float>(v, u) = static_cast<float>(here.x + u) - (std::isnan(d) ? 0.0f : d);
+      y.at<float>(v, u) = static_cast<float>(here.y + v);
     }
-  const cv::Mat left = grey(stereo.left);
+  const cv::Mat left = grey(stereo.left(here));
   cv::Mat right;
   cv::remap(grey(stereo.right), right, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::Mat weight;

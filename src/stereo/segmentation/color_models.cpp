@@ -60,7 +60,8 @@ cv::Mat cleanMask(const cv::Mat& probability) {
   return mask;
 }
 
-cv::Mat cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations) {
+cv::Mat
+cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations, Border border) {
   const int side = std::max(bgr.cols, bgr.rows);
   const bool reduce = side > LARGEST_CUT;
   cv::Mat small = bgr, small_labels = labels.clone(), front, back;
@@ -78,6 +79,8 @@ cv::Mat cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations) {
   cv::Mat large, inner, outer;
   cv::resize(mask, large, bgr.size(), 0, 0, cv::INTER_LINEAR);
   large = large > 127;
+  if (border == Border::ROUGH)
+    return large;
   const int width = 2 * (side / LARGEST_CUT) + 3;
   const cv::Mat band =
       cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * width + 1, 2 * width + 1});
@@ -90,7 +93,7 @@ cv::Mat cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations) {
   full.setTo(cv::GC_BGD, labels == cv::GC_BGD);
   if (cv::countNonZero(full & 1) == 0 || cv::countNonZero((full & 1) == 0) == 0)
     return large;
-  cv::grabCut(bgr, full, {}, back, front, 1, cv::GC_EVAL);
+  cv::grabCut(bgr, full, {}, back, front, 1, cv::GC_EVAL_FREEZE_MODEL);
   return (full & 1) * 255;
 }
 

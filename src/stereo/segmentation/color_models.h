@@ -15,9 +15,15 @@ colorProbability(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& backg
 /** \brief Pixels that a threshold at one half keeps, without specks. */
 cv::Mat cleanMask(const cv::Mat& probability);
 
+/** \brief Whether a cut at a reduced size is all that is wanted. */
+enum class Border { ROUGH, FINE };
+
 /** \brief Graph cut from labels (GC_BGD ...); first on a reduced image, then along the
  * border at full size. \return CV_8U mask */
-cv::Mat cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations);
+cv::Mat cutGraph(const cv::Mat& bgr,
+                 const cv::Mat& labels,
+                 int iterations,
+                 Border border = Border::FINE);
 
 /** \brief The connected component under a pixel, or the largest. */
 cv::Mat componentAt(const cv::Mat& mask, const cv::Point& place);

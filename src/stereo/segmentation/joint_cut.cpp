@@ -48,6 +48,11 @@ learnColors(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background
   return colors;
 }
 
+/** \brief Pixels whose side is not sure. */
+cv::Mat openOf(const cv::Mat& odds) {
+  return cv::abs(odds) < 0.5F * SURE;
+}
+
 /** \brief The cut of least cost. \param[in] odds CV_32F \param[in] open pixels whose
  * side is looked for; the others are on that of their odds */
 cv::Mat minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
@@ -106,33 +111,47 @@ cv::Mat minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open)
   return mask;
 }
 
-/** \brief The same at a reduced size where the image is large, then along the border
- * at full size. */
-cv::Mat cutInSteps(const cv::Mat& bgr, const cv::Mat& odds) {
-  const int side = std::max(bgr.cols, bgr.rows);
-  const auto open = [](const cv::Mat& o) { return cv::Mat(cv::abs(o) < 0.5F * SURE); };
-  if (side <= LARGEST_CUT)
-    return minimumCut(bgr, odds, open(odds));
-  const double s = double(LARGEST_CUT) / side;
-  cv::Mat small, small_odds, large, inner, outer;
-  cv::resize(bgr, small, {}, s, s, cv::INTER_AREA);
-  cv::resize(odds, small_odds, small.size(), 0, 0, cv::INTER_NEAREST);
-  cv::resize(minimumCut(small, small_odds, open(small_odds)),
-             large,
-             bgr.size(),
-             0,
-             0,
-             cv::INTER_LINEAR);
-  large = large > 127;
-  const int width = 2 * static_cast<int>(std::ceil(1.0 / s)) + 3;
+/** \brief The same where the border is known to a few pixels: only a band along it is
+ * open. */
+cv::Mat
+cutAlong(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& mask, int width) {
   const cv::Mat band =
       cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * width + 1, 2 * width + 1});
-  cv::erode(large, inner, band);
-  cv::dilate(large, outer, band);
-  cv::Mat fixed = odds.clone();
+  cv::Mat inner, outer, fixed = odds.clone();
+  cv::erode(mask, inner, band);
+  cv::dilate(mask, outer, band);
   fixed.setTo(SURE, inner);
   fixed.setTo(-SURE, outer == 0);
-  return minimumCut(bgr, fixed, open(fixed));
+  return minimumCut(bgr, fixed, openOf(fixed));
+}
+
+/** \brief What is known of a pixel before its colour is asked. */
+struct Known {
+  cv::Mat depth_odds;      ///< CV_32F
+  cv::Mat outside, beyond; ///< CV_8U, of the box, and so far out that it is surely not
+};
+
+/** \brief Odds of depth and of the colours that object and background have. */
+cv::Mat jointOdds(const cv::Mat& bgr,
+                  const Known& known,
+                  const cv::Mat& object,
+                  const cv::Mat& background) {
+  cv::Mat odds = learnColors(bgr, object, background).odds + known.depth_odds;
+  odds.setTo(-1.0F, (known.outside != 0) & (odds > -1.0F));
+  odds.setTo(-SURE, known.beyond);
+  return odds;
+}
+
+/** \brief Colours are learnt from the cut, and cut anew. */
+cv::Mat cutInRounds(const cv::Mat& bgr, const Known& known, int rounds) {
+  cv::Mat object = (known.depth_odds > LIKELY) & (known.outside == 0);
+  cv::Mat background = known.outside | (known.depth_odds < -LIKELY);
+  for (int round = 0; round < rounds; ++round) {
+    const cv::Mat odds = jointOdds(bgr, known, object, background);
+    object = minimumCut(bgr, odds, openOf(odds));
+    background = object == 0;
+  }
+  return object;
 }
 
 } // namespace
@@ -168,18 +187,27 @@ cv::Mat cutJointly(const cv::Mat& bgr,
   cv::Mat outside(bgr.size(), CV_8U, cv::Scalar(255)), beyond = outside.clone();
   outside(box).setTo(0);
   beyond(drawn).setTo(0);
-  cv::Mat object = (depth_odds > LIKELY) & (outside == 0);
-  cv::Mat background = outside | (depth_odds < -LIKELY);
-  cv::Mat mask;
-  for (int round = 0; round < rounds; ++round) {
-    cv::Mat odds = learnColors(bgr, object, background).odds + depth_odds;
-    odds.setTo(-1.0F, (outside != 0) & (odds > -1.0F));
-    odds.setTo(-SURE, beyond);
-    mask = cutInSteps(bgr, odds);
-    object = mask;
-    background = mask == 0;
-  }
-  return mask;
+  const Known known{depth_odds, outside, beyond};
+  const int side = std::max(bgr.cols, bgr.rows);
+  if (side <= LARGEST_CUT)
+    return cutInRounds(bgr, known, rounds);
+  // the border is found at a reduced size, and drawn at the full one
+  const double s = double(LARGEST_CUT) / side;
+  cv::Mat small, large;
+  cv::resize(bgr, small, {}, s, s, cv::INTER_AREA);
+  const auto reduced = [&small](const cv::Mat& values) {
+    cv::Mat result;
+    cv::resize(values, result, small.size(), 0, 0, cv::INTER_NEAREST);
+    return result;
+  };
+  const Known roughly{reduced(depth_odds), reduced(outside), reduced(beyond)};
+  cv::resize(
+      cutInRounds(small, roughly, rounds), large, bgr.size(), 0, 0, cv::INTER_LINEAR);
+  large = large > 127;
+  return cutAlong(bgr,
+                  jointOdds(bgr, known, large, large == 0),
+                  large,
+                  2 * static_cast<int>(std::ceil(1.0 / s)) + 3);
 }
 
 } // namespace pcl_sq::detail

@@ -50,7 +50,8 @@ cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& wi
 cv::Mat cutInBox(const cv::Mat& image,
                  const cv::Rect& box,
                  const cv::Rect& window,
-                 int iterations) {
+                 int iterations,
+                 Border border) {
   cv::Mat labels(window.size(), CV_8U, cv::Scalar(cv::GC_BGD));
   const cv::Rect inner = box - window.tl();
   // boxes are drawn by hand: just outside of them is hardly the object, not surely not
@@ -60,7 +61,7 @@ cv::Mat cutInBox(const cv::Mat& image,
               labels))
       .setTo(cv::GC_PR_BGD);
   labels(inner).setTo(cv::GC_PR_FGD);
-  return cutGraph(image(window), labels, iterations);
+  return cutGraph(image(window), labels, iterations, border);
 }
 
 cv::Mat cutAroundMask(const cv::Mat& image,

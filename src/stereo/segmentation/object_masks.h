@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "stereo/segmentation/color_models.h"
+
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
@@ -21,7 +23,8 @@ cv::Mat colorInBox(const cv::Mat& image, const cv::Rect& box, const cv::Rect& wi
 cv::Mat cutInBox(const cv::Mat& image,
                  const cv::Rect& box,
                  const cv::Rect& window,
-                 int iterations);
+                 int iterations,
+                 Border border);
 
 /** \brief Sharpens a rough mask of the image: its inside is sure, its surroundings are
  * open. */

@@ -133,13 +133,19 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
                 segment);
   std::vector<std::string> notes;
   cv::Mat mask = cv::Mat::zeros(bgr.size(), CV_8U), depth_odds;
-  if (options_.method == SegmentMethod::COLOR)
-    colorInBox(bgr, inside, window).copyTo(mask(window));
-  else
-    cutInBox(bgr, inside, window, options_.iterations).copyTo(mask(window));
-  mask = largestComponents(mask);
-  if (!cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
-      depthOddsInBox(cloud, inside, window, options_.disparity_scale, depth_odds)) {
+  const auto byColors = [&](Border border) {
+    const cv::Mat in_window =
+        options_.method == SegmentMethod::COLOR
+            ? colorInBox(bgr, inside, window)
+            : cutInBox(bgr, inside, window, options_.iterations, border);
+    in_window.copyTo(mask(window));
+    mask = largestComponents(mask);
+  };
+  const bool deep =
+      !cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
+      depthOddsInBox(cloud, inside, window, options_.disparity_scale, depth_odds);
+  byColors(deep ? Border::ROUGH : Border::FINE);
+  if (deep) {
     const cv::Rect inner = inside - window.tl();
     const double right = std::min(agreement(mask(window), inner, depth_odds),
                                   separability(bgr(window), mask(window)));
@@ -158,7 +164,8 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
             "colours alone do not tell the object from its surroundings, so "
             "its depth draws the outline as well; a mask of the object is "
             "surer");
-    }
+    } else
+      byColors(Border::FINE);
   }
   const bool told = cv::boundingRect(mask).area() >= HALF_SEEN * inside.area();
   if (!told) {
