@@ -35,23 +35,6 @@ private:
   double c_, s_, log_full_;
 };
 
-/** \brief A row of a point at a signed distance, weighted by the mixture (M5). The
- * lower half of jtj is filled. */
-template <class Equations, class Vector>
-void addPoint(const RobustCost& density,
-              double precision,
-              double distance,
-              const Vector& row,
-              Equations& e) {
-  const double square = precision * distance * distance;
-  double share;
-  e.cost += density.cost(square, share);
-  e.share += share;
-  e.weighted += share * square;
-  e.jtj.template selfadjointView<Eigen::Lower>().rankUpdate(row, share * precision);
-  e.jtr += share * precision * distance * row;
-}
-
 /** \brief Cost of the points alone, in units of sigma^2. */
 inline double
 pointsCost(const UnitPoints& points, double sigma, const Superquadric& body) {

@@ -124,7 +124,7 @@ LmOptions ViewProblem::limits(double sigma) const {
   o.max_epsilon = options_.max_epsilon;
   o.max_axis = max_axis_;
   o.min_axis = 1e-3;
-  o.cost_tolerance = 1e-4;
+  o.cost_tolerance = 1e-5;
   o.sigma = sigma;
   o.outlier = options_.robust ? OUTLIER : 0.0;
   return o;
