@@ -136,7 +136,6 @@ StereoResult StereoReprojector::computeCoarse(const cv::Mat& left,
   StereoReprojector small(
       StereoCalibration::fromRectified(halved(result.intrinsics, half)));
   small.options_ = options_;
-  small.options_.refine = false;
   small.options_.speckle_window = options_.speckle_window / 4;
   small.options_.speckle_range = std::max(1, options_.speckle_range / 2);
   StereoResult coarse;

@@ -66,6 +66,18 @@ TEST(StereoPipeline, LooksOnlyAroundTheLastOutlineWhereFramesFollow) {
   EXPECT_LT((centerOf(second) - centerOf(first)).norm(), 0.03 * size);
 }
 
+TEST(StereoPipeline, TheInsideOfABowlBelongsToItThoughItsRimHidesWhatIsBetween) {
+  const StereoScene s = renderScene("bowl", 1.0, 1, 2);
+  StereoPipeline pipeline = pipelineFor(s);
+  StereoObject bowl;
+  ASSERT_TRUE(pipeline.process(s.left, s.right, bowl)) << bowl.failure;
+  ASSERT_EQ(bowl.model.size(), 1U);
+  const Superquadric& body = bowl.model.parts.front();
+  EXPECT_TRUE(body.isHollow());
+  const double width = s.object.box().sizes().x();
+  EXPECT_NEAR(body.boundingBox().sizes().x(), width, 0.05 * width);
+}
+
 TEST(StereoPipeline, FollowsAnObjectThatMoves) {
   const StereoScene s = renderScene("can");
   StereoPipeline pipeline = pipelineFor(s);

@@ -8,6 +8,7 @@
 #include "stereo/segmentation/depth_objects.h"
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,16 +85,43 @@ pcl::IndicesPtr maskIndices(const cv::Mat& mask) {
   return indices;
 }
 
+/** \brief Whether pixels hang together by more than the windows that are matched are
+ * wide: narrower ones, along an outline, may be windows that saw what is behind. */
+cv::Mat widerThanWindows(const cv::Mat& pixels, int window) {
+  const cv::Mat square = cv::Mat::ones(window, window, CV_8U);
+  cv::Mat wide, grown;
+  cv::morphologyEx(pixels, wide, cv::MORPH_OPEN, square);
+  cv::dilate(wide, grown, square);
+  return grown & pixels;
+}
+
+/** \brief Points under the mask that are no part of the thing: outside of its box, but
+ * for those behind its front, at most as deep as the box is wide, that are no false
+ * matches: the inside of a bowl, of which the rim hides what is between. */
 pcl::Indices straysOf(const StereoView& view, const pcl::Indices& under_mask) {
   constexpr double REACH =
-      0.15; // of the box's diagonal: the aperture cuts thin ends off
-  const Eigen::Vector3d margin =
-      Eigen::Vector3d::Constant(REACH * view.region.sizes().norm());
+      0.15;                 // of the box's diagonal: the aperture cuts thin ends off
+  constexpr int WINDOW = 9; // of the refinement, the widest that is matched [px]
+  if (under_mask.empty())
+    return {};
+  const double reach = REACH * view.region.sizes().norm();
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   const RoiBox box{view.region.min - margin, view.region.max + margin};
-  pcl::Indices strays;
-  for (const pcl::index_t i : under_mask)
-    if (const auto& p = (*view.stereo.cloud)[static_cast<std::size_t>(i)];
-        std::isfinite(p.z) && !box.contains(p.getVector3fMap().cast<double>()))
+  const double back = view.region.min.z() + view.region.sizes().x() + reach;
+  pcl::Indices outside, strays;
+  cv::Mat behind = cv::Mat::zeros(view.segment.mask.size(), CV_8U);
+  for (const pcl::index_t i : under_mask) {
+    const auto& p = (*view.stereo.cloud)[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d at = p.getVector3fMap().cast<double>();
+    if (!std::isfinite(p.z) || box.contains(at))
+      continue;
+    outside.push_back(i);
+    if (at.z() > view.region.max.z() && at.z() < back)
+      behind.ptr<std::uint8_t>()[i] = 255;
+  }
+  behind = widerThanWindows(behind, WINDOW);
+  for (const pcl::index_t i : outside)
+    if (behind.ptr<std::uint8_t>()[i] == 0)
       strays.push_back(i);
   return strays;
 }
