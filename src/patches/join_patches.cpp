@@ -34,6 +34,7 @@ public:
     joinBodies();
     joinInterrupted();
     joinOverlapping();
+    joinInLine();
     joinFloating();
     std::vector<Patch> things;
     for (Patch& patch : list_)
@@ -88,12 +89,17 @@ private:
   }
 
   /** \brief Whether nothing is seen that would part two patches of one colour which one
-   * body explains: the background beside neither, but that a vessel's rim is before. */
+   * body explains: a step in depth, which convex bodies do not have, or the background
+   * beside neither, but that a vessel's rim is before. */
   bool isUnparted(std::pair<int, int> pair, const BodyScore& both) const {
-    return areNear(pair.first, pair.second) || both.is_vessel ||
-           !between(
-                view_, list_[std::size_t(pair.first)], list_[std::size_t(pair.second)])
-                .background;
+    if (both.is_vessel)
+      return true;
+    if (isStep(pair))
+      return false;
+    return areNear(pair.first, pair.second) || !between(view_,
+                                                        list_[std::size_t(pair.first)],
+                                                        list_[std::size_t(pair.second)])
+                                                    .background;
   }
 
   /** \brief Pairs that one body may explain: near each other, or of one colour. */
@@ -104,7 +110,7 @@ private:
         if (std::min(list_[std::size_t(a)].pixels.size(),
                      list_[std::size_t(b)].pixels.size()) < SCRAP)
           continue;
-        if (areNear(a, b) || sameColor(a, b, ONE_COLOR))
+        if (areNear(a, b) || sameColor(a, b, ONE_COLOR) || mayShareRim(a, b))
           pairs.emplace_back(a, b);
       }
     return pairs;
@@ -138,7 +144,8 @@ private:
   void joinInterrupted() {
     joinAlike([&](int a, int b) {
       const Between gap = between(view_, list_[std::size_t(a)], list_[std::size_t(b)]);
-      return !gap.background && (gap.hidden || offset(a, b) <= BESIDE);
+      return !gap.background && !gap.apart_above &&
+             (gap.hidden || offset(a, b) <= BESIDE);
     });
   }
 
@@ -151,7 +158,7 @@ private:
       std::pair<int, int> which;
       for (const auto& [pair, border] : borders_)
         if (touches(border) && alive(pair.first) && alive(pair.second) &&
-            isWide(pair, border) && border.meanFold() < best) {
+            isWide(pair, border.pairs - border.jumps) && border.meanFold() < best) {
           best = border.meanFold();
           which = pair;
           joined = true;
@@ -195,6 +202,20 @@ private:
       if (which.first < 0)
         return;
       join(which.second, which.first);
+    }
+  }
+
+  /** \brief What goes on in a lower patch, such as a bottle above its label. */
+  void joinInLine() {
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (int a = 0; a < int(list_.size()) && !joined; ++a)
+        for (int b = 0; b < int(list_.size()) && !joined; ++b)
+          if (a != b && alive(a) && alive(b) && !stands(list_[std::size_t(a)]) &&
+              goesOnIn(a, b)) {
+            join(a, b);
+            joined = true;
+          }
     }
   }
 

@@ -31,7 +31,10 @@ protected:
   /** \brief Distance of two footprints over the larger one's radius. */
   [[nodiscard]] double offset(int a, int b) const;
   /** \brief Whether two patches meet along a good share of the smaller one's width. */
-  [[nodiscard]] bool isWide(std::pair<int, int> pair, const Border& border) const;
+  [[nodiscard]] bool isWide(std::pair<int, int> pair, int pixels) const;
+  /** \brief Whether two patches meet at an edge in depth along a good share of the
+   * smaller one's width: one of them is before the other. */
+  [[nodiscard]] bool isStep(std::pair<int, int> pair) const;
   /** \brief Evidence for one thing where the surface goes on from one patch to the
    * other: of two things that meet, each place where neighbours' errors differ would
    * have to be flush by chance. */
@@ -42,6 +45,17 @@ protected:
   /** \brief Whether a patch ends at another thing before it, lower down, which may hide
    * its foot. */
   [[nodiscard]] bool isHiddenBelow(int a) const;
+  /** \brief Of a patch, across the view and level: the standard deviation of its points
+   * [m]. */
+  [[nodiscard]] double width(int a) const;
+  /** \brief Whether a patch goes on in a lower one: about one axis, of one width, and
+   * without a fold or a step between them. Of two things that is so by chance hardly
+   * ever. */
+  [[nodiscard]] bool goesOnIn(int upper, int lower) const;
+  /** \brief Whether two patches may be the inside and the outside of a vessel: they
+   * meet at an edge in depth and end at one height, the rim's, and one of them stands.
+   */
+  [[nodiscard]] bool mayShareRim(int a, int b) const;
   /** \brief How far a floating patch is from another, in sizes; infinite out of reach.
    */
   [[nodiscard]] double apart(int a, int b) const;

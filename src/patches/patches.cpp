@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace pcl_sq::detail {
 
@@ -14,11 +16,11 @@ namespace {
 constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
 constexpr double SAME_PATCH = 1.5; ///< of whole patches
 constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr double FOLD = 0.7;       ///< angle of normals [rad], concave: surely a fold
 constexpr double STRAYS = 0.02;    ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
 
+constexpr int APART = 8;             ///< pixels, as far as a halo reaches
 constexpr int RIM = 3;               ///< pixels that matching windows fatten things by
 constexpr double LEAST_INSIDE = 0.1; ///< of the pixels of what is more than a rim
 
@@ -130,6 +132,45 @@ bool isThin(const std::vector<int>& pixels, int width, int height) {
   return double(inside) < LEAST_INSIDE * double(pixels.size());
 }
 
+std::vector<int> withoutStrays(const std::vector<int>& pixels, int width, int height) {
+  CellMask left((width - 1) / APART + 1, (height - 1) / APART + 1);
+  const auto cellOf = [&](int c) {
+    return left.indexOf(c % width / APART, c / width / APART);
+  };
+  std::vector<int> inside(left.cells.size(), 0); // pixels of each cell
+  for (const int c : pixels) {
+    left.cells[cellOf(c)] = 1;
+    ++inside[cellOf(c)];
+  }
+  std::vector<bool> is_stray(left.cells.size(), false);
+  std::vector<std::pair<int, int>> piece;
+  const auto take = [&](int x, int y) {
+    if (!left(x, y))
+      return;
+    left.cells[left.indexOf(x, y)] = 0;
+    piece.emplace_back(x, y);
+  };
+  for (const int c : pixels) {
+    piece.clear();
+    take(c % width / APART, c / width / APART);
+    int count = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto [x, y] = piece[i];
+      count += inside[left.indexOf(x, y)];
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          take(x + dx, y + dy);
+    }
+    for (const auto& [x, y] : piece)
+      is_stray[left.indexOf(x, y)] = double(count) < STRAYS * double(pixels.size());
+  }
+  std::vector<int> kept;
+  std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(kept), [&](int c) {
+    return !is_stray[cellOf(c)];
+  });
+  return kept;
+}
+
 Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
   struct Link {
     int a, b;
@@ -196,11 +237,10 @@ Between between(const SceneView& view, const Patch& a, const Patch& b) {
   int from = nearestTo(a, middle, view.width);
   const int to = nearestTo(b, pixelOf(from, view.width), view.width);
   from = nearestTo(a, pixelOf(to, view.width), view.width);
-  const Between nearest = along(view, from, to, own);
-  if (nearest.background)
-    return nearest;
-  const Between tops = along(view, highest(view, a), highest(view, b), own);
-  return {nearest.hidden && tops.background, nearest.hidden && !tops.background};
+  Between gap = along(view, from, to, own);
+  gap.apart_above =
+      gap.hidden && along(view, highest(view, a), highest(view, b), own).background;
+  return gap;
 }
 
 } // namespace pcl_sq::detail

@@ -9,6 +9,8 @@
 
 namespace pcl_sq::detail {
 
+constexpr double FOLD = 0.7; ///< angle of normals [rad], concave: surely a fold
+
 /** \brief Superpixels of one colour that hang together without a jump or a crease. */
 struct Patch {
   std::vector<int> pixels;
@@ -35,15 +37,21 @@ struct Patches {
 /** \brief Whether pixels are but a rim, a few wide: no thing by itself. */
 [[nodiscard]] bool isThin(const std::vector<int>& pixels, int width, int height);
 
+/** \brief Leaves out what lies about alone: a pixel of a thing's colour far from it
+ * would be its outline. */
+[[nodiscard]] std::vector<int>
+withoutStrays(const std::vector<int>& pixels, int width, int height);
+
 /** \brief What is seen between two patches. */
 struct Between {
-  bool background = false; ///< something beside them that hides neither
-  bool hidden = false;     ///< nothing but what hides them
+  bool background = false;  ///< something beside them that hides neither
+  bool hidden = false;      ///< nothing but what hides them
+  bool apart_above = false; ///< the same, but background between their highest places
 };
 
 /** \brief Looks along the line between two patches where they are nearest to each
  * other, and along that between their highest places: what parts one thing in two hides
- * it from its top to its foot. */
+ * it from its top to its foot, unless it is bent. */
 [[nodiscard]] Between between(const SceneView& view, const Patch& a, const Patch& b);
 
 /** \brief Joins patches that are one thing. */

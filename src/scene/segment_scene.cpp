@@ -56,11 +56,11 @@ SceneSegments segmentScene(const SceneView& view, int min_pixels) {
   LabelImage labels(view.width, view.height);
   std::uint16_t next = 1;
   for (const Patch& thing : joinPatches(view, std::move(patches))) {
-    if (int(thing.pixels.size()) < min_pixels ||
-        isThin(thing.pixels, view.width, view.height) ||
-        isCutTwice(thing.pixels, view.width, view.height))
+    const std::vector<int> own = withoutStrays(thing.pixels, view.width, view.height);
+    if (int(own.size()) < min_pixels || isThin(own, view.width, view.height) ||
+        isCutTwice(own, view.width, view.height))
       continue;
-    for (const int c : thing.pixels)
+    for (const int c : own)
       labels.values[std::size_t(c)] = next;
     ++next;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/table_color.h"
 
+#include "scene/open_ground.h"
 #include "sensor/observation.h"
 
 #include <algorithm>
@@ -53,19 +54,25 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
     std::nth_element(values.begin(), half, values.end());
     middle[k] = *half;
   }
-  cells_.assign(std::size_t(columns_) * std::size_t(rows_), middle);
-  std::vector<float> counts(cells_.size(), 1.0F); // where little is seen, the middle
-  for (const int c : level) {
-    const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
-    if (hueDistance(shade, middle) > UNEVEN)
-      continue;
-    const auto cell = std::size_t(c / view.width / CELL) * std::size_t(columns_) +
-                      std::size_t(c % view.width / CELL);
-    cells_[cell] += shade;
-    counts[cell] += 1.0F;
-  }
-  for (std::size_t k = 0; k < cells_.size(); ++k)
-    cells_[k] /= counts[k];
+  const auto average = [&](const std::vector<int>& pixels) {
+    // where little is seen, the middle
+    std::vector<Eigen::Vector4f> means(std::size_t(columns_) * std::size_t(rows_),
+                                       middle);
+    std::vector<float> counts(means.size(), 1.0F);
+    for (const int c : pixels) {
+      const Eigen::Vector4f shade = shadeOf(view.colors.col(c).cast<double>());
+      if (hueDistance(shade, middle) > UNEVEN)
+        continue;
+      const auto cell = std::size_t(c / view.width / CELL) * std::size_t(columns_) +
+                        std::size_t(c % view.width / CELL);
+      means[cell] += shade;
+      counts[cell] += 1.0F;
+    }
+    for (std::size_t k = 0; k < means.size(); ++k)
+      means[k] /= counts[k];
+    return means;
+  };
+  cells_ = average(level);
   // a saturated colour scatters, and is the table's all the same
   values.clear();
   for (std::size_t i = 0; i < level.size(); i += 7) {
@@ -75,6 +82,16 @@ TableColor::TableColor(const SceneView& view, const CellMask& above) : view_(vie
   const auto half = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), half, values.end());
   like_ = std::max(LIKE_TABLE, OVER_MEDIAN * *half);
+  const CellMask around = openGround(above);
+  // what things enclose is the table between them, or the floor of a pan
+  level.erase(std::remove_if(level.begin(),
+                             level.end(),
+                             [&](int c) { return !around.cells[std::size_t(c)]; }),
+              level.end());
+  const std::vector<Eigen::Vector4f> outside = average(level);
+  for (std::size_t k = 0; k < cells_.size(); ++k)
+    if (hueDistance(cells_[k], outside[k]) > like_)
+      cells_[k] = outside[k];
 }
 
 Eigen::Vector4f TableColor::near(int x, int y) const {

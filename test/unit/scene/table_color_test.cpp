@@ -65,3 +65,35 @@ TEST(TableColor, FeetAreTheThingsHoweverTheTablesColourScatters) {
     EXPECT_LE(grown(blue), before + foot + 30) << blue;
   }
 }
+
+TEST(TableColor, IsNotThatOfWhatThingsEnclose) {
+  // a pan from above: its wall has nearly the table's colour, its floor lies on the
+  // table
+  Eigen::Matrix3Xf points(3, WIDTH * HEIGHT);
+  ColorMatrix colors(3, WIDTH * HEIGHT);
+  CellMask above(WIDTH, HEIGHT);
+  for (int y = 0; y < HEIGHT; ++y)
+    for (int x = 0; x < WIDTH; ++x) {
+      const int c = y * WIDTH + x;
+      const double radius = std::hypot(x - 80, y - 60);
+      const bool wall = radius < 50.0 && radius > 36.0;
+      points.col(c) = Eigen::Vector3f(
+          0.002F * float(x - 80), 0.002F * float(y - 60), wall ? 0.96F : 1.0F);
+      if (radius < 50.0)
+        colors.col(c) << 150, 132, 150;
+      else
+        colors.col(c) << 140, 140, 140;
+      above.cells[std::size_t(c)] = wall && y != 60; // and is not seen in one line
+    }
+  PinholeCamera camera;
+  camera.fx = camera.fy = 500.0;
+  TableModel table;
+  table.normal = -Eigen::Vector3d::UnitZ();
+  table.offset = 1.0;
+  table.sigma = 0.001;
+  const CloudPoints seen(points);
+  const SceneView view{seen, WIDTH, HEIGHT, colors, camera, table};
+  CellMask left = above;
+  TableColor(view, above).removeHalo(left);
+  EXPECT_GT(double(left.count()), 0.9 * double(above.count()));
+}
