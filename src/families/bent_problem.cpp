@@ -39,20 +39,10 @@ BentProblem::BentProblem(const ViewProblem& problem,
       planes_(problem.planes(sigma, points, few)) {}
 
 BentProblem::Equations BentProblem::evaluate(const Superquadric& s) const {
-  Equations e;
-  const RobustCost density{limits_.sigma > 0.0 ? limits_.sigma : 1.0, limits_.outlier};
-  const float* precision = points_.view().precision;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    Place foot;
-    const BodyRow body = footPointRow(s, points_[i].cast<double>(), &foot);
-    // the surface moves on along its normal, as it does with the centre
-    const Vector row = rowOf(
-        body.derivatives, body.derivatives.head<3>().dot(bendVelocity(s, foot.unbent)));
-    const double q = precision ? double(precision[i]) : 1.0;
-    addPoint(density, q, body.value, row, e);
-  }
-  e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
-  e.points_cost = e.cost;
+  kernels::Sums sums;
+  kernels::kernels().bentEquations(
+      points_.view(), toShape(s), float(s.bend), mixtureOf(limits_), sums);
+  Equations e = squaresOf<N>(sums);
   const BentSupport slices(s);
   const auto row = [&](const Eigen::Vector3d& normal) {
     Eigen::Vector3d touching;

@@ -15,38 +15,25 @@ namespace pcl_sq::detail {
 
 /** \brief A Gaussian of peak one beside a uniform density c (M5); what kernels::Mixture
  * says for one residual. */
-struct RobustCost {
-  double sigma, c;
+class RobustCost {
+public:
+  RobustCost(double sigma, double c)
+      : c_(c), s_(0.5 / (sigma * sigma)), log_full_(std::log1p(c)) {}
 
   /** \brief -2 sigma^2 ln of the density over the largest, which is the square itself
    * for c = 0. \param[out] share of the Gaussian in the density */
   double cost(double square, double& share) const {
     share = 1.0;
-    if (!(c > 0.0))
+    if (!(c_ > 0.0))
       return square;
-    const double s = 0.5 / (sigma * sigma);
-    const double density = std::exp(-s * square);
-    share = density / (density + c);
-    return (std::log1p(c) - std::log(density + c)) / s;
+    const double density = std::exp(-s_ * square);
+    share = density / (density + c_);
+    return (log_full_ - std::log(density + c_)) / s_;
   }
-};
 
-/** \brief A row of a point at a signed distance, weighted by the mixture (M5). The
- * lower half of jtj is filled. */
-template <class Equations, class Vector>
-void addPoint(const RobustCost& density,
-              double precision,
-              double distance,
-              const Vector& row,
-              Equations& e) {
-  const double square = precision * distance * distance;
-  double share;
-  e.cost += density.cost(square, share);
-  e.share += share;
-  e.weighted += share * square;
-  e.jtj.template selfadjointView<Eigen::Lower>().rankUpdate(row, share * precision);
-  e.jtr += share * precision * distance * row;
-}
+private:
+  double c_, s_, log_full_;
+};
 
 /** \brief Cost of the points alone, in units of sigma^2. */
 inline double

@@ -60,6 +60,14 @@ ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
   return c;
 }
 
+/** \brief Distance of each point to a body. */
+std::vector<float> distancesTo(const Superquadric& body, const UnitPoints& points) {
+  std::vector<float> distances(points.size() + kernels::BLOCK);
+  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
+  distances.resize(points.size());
+  return distances;
+}
+
 /** \brief What a solid cannot explain: points behind the surface that the camera sees.
  */
 struct Hidden {
@@ -81,9 +89,8 @@ hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body)
         (p + BEHIND * sigma * (*problem.eye() - p).normalized()).cast<float>();
     nearer.add(q.x(), q.y(), q.z());
   }
-  std::vector<float> there(points.size() + kernels::BLOCK), here(there.size());
-  residualsOf(body, nearer, kernels::Residual::FOOT_POINT, there.data());
-  residualsOf(body, points, kernels::Residual::FOOT_POINT, here.data());
+  const std::vector<float> there = distancesTo(body, nearer),
+                           here = distancesTo(body, points);
   const LmOptions limits = problem.limits(sigma);
   const RobustCost density{sigma, limits.outlier};
   const float* precision = points.view().precision;
@@ -104,12 +111,11 @@ hiddenPoints(const ViewProblem& problem, double sigma, const Superquadric& body)
 
 /** \brief Sigma of the points about a body: what the mixture makes of their distances.
  */
-template <typename Distance>
-double scatterOf(const UnitPoints& points, double sigma, const Distance& distance) {
+double scatterOf(const UnitPoints& points, double sigma, const Superquadric& body) {
   constexpr int ROUNDS = 8;
-  std::vector<double> squares(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    squares[i] = std::pow(distance(i), 2);
+  std::vector<double> squares;
+  for (const float distance : distancesTo(body, points))
+    squares.push_back(std::pow(double(distance), 2));
   for (int round = 0; round < ROUNDS; ++round) {
     const RobustCost density{sigma, OUTLIER};
     double shares = 0.0, weighted = 0.0, share;
@@ -123,32 +129,25 @@ double scatterOf(const UnitPoints& points, double sigma, const Distance& distanc
   return sigma;
 }
 
-double scatterOf(const UnitPoints& points, double sigma, const Superquadric& body) {
-  std::vector<float> distances(points.size() + kernels::BLOCK);
-  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  return scatterOf(points, sigma, [&](std::size_t i) { return double(distances[i]); });
-}
-
 /** \brief Share of the points that are near a body. */
 double nearShare(const UnitPoints& points, double reach, const Superquadric& body) {
-  std::vector<float> distances(points.size() + kernels::BLOCK);
-  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  double near = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    near += std::abs(double(distances[i])) <= reach;
-  return near / double(points.size());
+  const std::vector<float> distances = distancesTo(body, points);
+  const auto near = std::count_if(distances.begin(), distances.end(), [&](float d) {
+    return std::abs(double(d)) <= reach;
+  });
+  return double(near) / double(points.size());
 }
 
-/** \brief Share of the points that lie off a body by more than half the thinnest wall
- * that noise leaves: it goes between the wall's two sides, or along one of them. */
-double offShare(const UnitPoints& points, double sigma, const Superquadric& body) {
-  std::vector<float> distances(points.size() + kernels::BLOCK);
-  residualsOf(body, points, kernels::Residual::FOOT_POINT, distances.data());
-  const auto off = std::count_if(
-      distances.begin(),
-      distances.begin() + std::ptrdiff_t(points.size()),
-      [&](float d) { return std::abs(double(d)) > 0.5 * RESOLVED * sigma; });
-  return double(off) / double(points.size());
+/** \brief Beyond the points of all sides is nothing: lowers a rim to the highest of
+ * them, from where the fit may raise it, for no point holds down one that is above. */
+void lowerRim(const UnitPoints& points, Superquadric& s) {
+  std::vector<double> heights(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    heights[i] = s.toLocal(points[i].cast<double>()).z() / s.semi_axes.z();
+  const auto top = heights.end() - 1 - std::ptrdiff_t(CUT * double(heights.size()));
+  std::nth_element(heights.begin(), top, heights.end());
+  const double lowest = std::min(tuning::vessel_problem::MIN_RIM, s.rim);
+  s.rim = std::clamp(*top, lowest, s.rim);
 }
 
 /** \brief A vessel beside a solid where nobody knows the noise: that of points on both
@@ -164,6 +163,7 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
   double own = std::max(sigma, WIDE);
   vessel = VesselFamily(problem, points, 2.0 * own).fit(vessel, ITERATIONS);
   for (int round = 0; round < ROUNDS; ++round) {
+    lowerRim(points, vessel.model);
     own = std::min(own, scatterOf(points, own, vessel.model));
     vessel = VesselFamily(problem, points, own).fit(vessel, ITERATIONS);
   }
@@ -229,7 +229,10 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     return std::nullopt;
   if (problem.eye() && !(hiddenPoints(problem, sigma, best->model).share > SEEN_BEHIND))
     return std::nullopt;
-  if (!problem.eye() && offShare(problem.medium(), sigma, best->model) < BOTH_SIDES)
+  // it goes between the wall's two sides, or along one of them
+  if (!problem.eye() &&
+      1.0 - nearShare(problem.medium(), 0.5 * RESOLVED * sigma, best->model) <
+          BOTH_SIDES)
     return std::nullopt;
   std::vector<Eigen::Vector3d> axes;
   if (problem.hasUp())

@@ -43,6 +43,25 @@ void takeNearest(const std::array<ProfileVertex, VERTICES>& line,
   foot.share = chords.shareAt(i, p.x() - chords.x[i], p.y() - chords.y[i]);
 }
 
+/** \brief A chord with the slopes of its ends, as the kernels want it. */
+kernels::VesselChord chordOf(const ProfileVertex& from, const ProfileVertex& to) {
+  const Eigen::Vector2d along = to.at - from.at;
+  const double square = along.squaredNorm();
+  kernels::VesselChord c{float(from.at.x()),
+                         float(from.at.y()),
+                         float(along.x()),
+                         float(along.y()),
+                         square > 0.0 ? float(1.0 / square) : 0.0F,
+                         {},
+                         {}};
+  for (int row = 0; row < 2; ++row)
+    for (int k = 0; k < kernels::VesselChord::SLOPES; ++k) {
+      c.begin[row][k] = float(from.d(row, k));
+      c.end[row][k] = float(to.d(row, k));
+    }
+  return c;
+}
+
 } // namespace
 
 VesselProblem::VesselProblem(const ViewProblem& problem,
@@ -50,14 +69,14 @@ VesselProblem::VesselProblem(const ViewProblem& problem,
                              double sigma,
                              PlaneCost planes)
     : points_(points), limits_(problem.limits(sigma)), planes_(std::move(planes)),
-      eye_(problem.eye()),
-      pixel_(planes_.silhouette.empty() ? 0.0 : planes_.silhouette.front().sigma) {}
+      others_(planes_), eye_(problem.eye()),
+      pixel_(planes_.silhouette.empty() ? 0.0 : planes_.silhouette.front().sigma) {
+  others_.silhouette.clear();
+}
 
 VesselProblem::Equations VesselProblem::evaluate(const Superquadric& s) const {
-  Equations e;
   const VesselProfile profile(s);
-  addPoints(s, profile, e);
-  e.points_cost = e.cost;
+  Equations e = pointSums(s, profile);
   addPlanes(s, profile, e);
   Vector wall = Vector::Zero();
   wall[10] = 1.0;
@@ -83,56 +102,32 @@ double VesselProblem::insideShare(const Superquadric& s) const {
   return inside / double(points_.size());
 }
 
-void VesselProblem::addPoints(const Superquadric& s,
-                              const VesselProfile& profile,
-                              Equations& e) const {
-  const RobustCost density{limits_.sigma > 0.0 ? limits_.sigma : 1.0, limits_.outlier};
-  const float* precision = points_.view().precision;
-  const double rim = profile.rimHeight(), opening = profile.opening();
-  const OuterChords outside(profile.outside);
-  const InnerChords inside(profile.inside);
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
-  const bool above = eye_ && (eye = s.toLocal(*eye_)).z() > rim;
+VesselProblem::Equations VesselProblem::pointSums(const Superquadric& s,
+                                                  const VesselProfile& profile) const {
+  constexpr int COUNT = VesselProfile::OUTER + VesselProfile::INNER + 2;
+  std::array<kernels::VesselChord, COUNT> chords;
+  auto next = chords.begin();
+  const auto add = [&next](const auto& line) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      *next++ = chordOf(line[i], line[i + 1]);
+  };
+  add(profile.outside);
+  add(profile.inside);
+  kernels::Vessel vessel{};
+  vessel.chords = chords.data();
+  vessel.outer = VesselProfile::OUTER + 1;
+  vessel.count = COUNT;
+  vessel.has_eye = eye_.has_value();
+  if (eye_)
+    Eigen::Map<Eigen::Vector3f>(vessel.eye) = s.toLocal(*eye_).cast<float>();
   const double margin = 2.0 * pixel_;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Eigen::Vector3d p = s.toLocal(points_[i].cast<double>());
-    bool outer = true, inner = !eye_;
-    if (above && p.z() < eye.z()) {
-      const double along = (rim - eye.z()) / (p.z() - eye.z());
-      const double crossing = (eye + along * (p - eye)).head<2>().norm();
-      inner = crossing < opening + margin;
-      outer = crossing > opening - margin;
-    }
-    const double rho = p.head<2>().norm();
-    const Eigen::Vector2d place(rho, p.z());
-    Foot foot;
-    if (outer)
-      takeNearest(profile.outside, outside, place, foot);
-    if (inner)
-      takeNearest(profile.inside, inside, place, foot);
-    if (!foot.from)
-      continue;
-    Eigen::Vector2d n = place - foot.at();
-    const double distance = std::sqrt(foot.square);
-    if (distance > 1e-9)
-      n /= distance;
-    else {
-      const Eigen::Vector2d side = foot.from[1].at - foot.from[0].at;
-      n = Eigen::Vector2d(side.y(), -side.x()).normalized();
-    }
-    const Eigen::Vector3d normal(rho > 0.0 ? n.x() * p.x() / rho : n.x(),
-                                 rho > 0.0 ? n.x() * p.y() / rho : 0.0,
-                                 n.y());
-    Vector row;
-    row.head<3>() = -normal;
-    row.segment<2>(3) = normal.cross(p).head<2>();
-    row.tail<6>() = -((1.0 - foot.share) * (n.transpose() * foot.from[0].d) +
-                      foot.share * (n.transpose() * foot.from[1].d))
-                         .transpose();
-    const double q = precision ? double(precision[i]) : 1.0;
-    addPoint(density, q, distance, row, e);
-  }
-  e.jtj.triangularView<Eigen::StrictlyUpper>() = e.jtj.transpose();
+  vessel.rim = float(profile.rimHeight());
+  vessel.wide = float(profile.opening() + margin);
+  vessel.narrow = float(profile.opening() - margin);
+  kernels::Sums sums;
+  kernels::kernels().vesselEquations(
+      points_.view(), toShape(s), vessel, mixtureOf(limits_), sums);
+  return squaresOf<N>(sums);
 }
 
 void VesselProblem::addPlanes(const Superquadric& s,
@@ -166,9 +161,7 @@ void VesselProblem::addPlanes(const Superquadric& s,
     return r;
   };
   const auto reach = [&](const Eigen::Vector3d& n) { return row(n).reach; };
-  PlaneCost others = planes_;
-  others.silhouette.clear();
-  addPlaneCost<N>(others, row, reach, e);
+  addPlaneCost<N>(others_, row, reach, e);
   // the outline may be a handle's here and there: robust, as the points are
   const double unit = planes_.unit;
   const RobustCost density{1.0, OUTLIER};

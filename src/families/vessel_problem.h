@@ -42,14 +42,13 @@ public:
   double sigma() const { return limits_.sigma; }
 
 private:
-  void
-  addPoints(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
+  Equations pointSums(const Superquadric& s, const VesselProfile& profile) const;
   void
   addPlanes(const Superquadric& s, const VesselProfile& profile, Equations& e) const;
 
   const UnitPoints& points_;
   LmOptions limits_;
-  PlaneCost planes_;
+  PlaneCost planes_, others_; ///< all, without the outline's
   std::optional<Eigen::Vector3d> eye_;
   double pixel_; ///< size of a pixel at the object
 };

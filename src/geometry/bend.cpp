@@ -3,6 +3,8 @@
 // with R = 1 / curvature and X towards the circle's centre (M23).
 #include "geometry/bend.h"
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -202,8 +204,7 @@ BentSupport::Touching BentSupport::touching(const Slice& c,
 }
 
 BentContact BentSupport::contact(const Eigen::Vector3d& n) const {
-  constexpr int REFINEMENTS = 14;
-  constexpr double GOLDEN = 0.6180339887498949;
+  constexpr int PRECISION_BITS = 12; // of the place; the reach is known to twice that
   int highest = 0;
   double most = touching(slices_[0], n).reach;
   for (int i = 1; i <= SLICES; ++i) {
@@ -213,26 +214,14 @@ BentContact BentSupport::contact(const Eigen::Vector3d& n) const {
       highest = i;
     }
   }
-  const auto reach = [&](double t) { return touching(at(t), n).reach; };
   const double best = begin_ + highest * step_;
-  double left_end = std::max(best - step_, begin_),
-         right_end = std::min(best + step_, end_);
-  double left = right_end - GOLDEN * (right_end - left_end),
-         right = left_end + GOLDEN * (right_end - left_end);
-  double at_left = reach(left), at_right = reach(right);
-  for (int i = 0; i < REFINEMENTS; ++i)
-    if (at_left > at_right) {
-      right_end = right;
-      right = left;
-      at_right = at_left;
-      at_left = reach(left = right_end - GOLDEN * (right_end - left_end));
-    } else {
-      left_end = left;
-      left = right;
-      at_left = at_right;
-      at_right = reach(right = left_end + GOLDEN * (right_end - left_end));
-    }
-  Slice c = at(0.5 * (left_end + right_end));
+  const double top = boost::math::tools::brent_find_minima(
+                         [&](double t) { return -touching(at(t), n).reach; },
+                         std::max(best - step_, begin_),
+                         std::min(best + step_, end_),
+                         PRECISION_BITS)
+                         .first;
+  Slice c = at(top);
   Touching t = touching(c, n);
   if (!(t.reach > most)) {
     c = slices_[std::size_t(highest)];

@@ -9,12 +9,12 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int STEPS = 40;         ///< of a meridian's curve
+constexpr int STEPS = kernels::Outline::STEPS; ///< of a meridian's curve
 constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
 constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
 /** \brief Chords in the place of one: half a circle in STEPS of them misses by 7.7e-4
  * of the radius, and the square of this less. */
-constexpr std::size_t FINE = 8;
+constexpr std::size_t FINE = kernels::Outline::FINE;
 /** \brief Points from which on refined curves are worth their making: a point costs a
  * REFINEMENTS-th of a golden section's powers, a curve FINE x STEPS of them. */
 constexpr std::size_t MANY = 2 * FINE * STEPS / REFINEMENTS;
@@ -114,14 +114,6 @@ Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) co
   const double nearest = std::sqrt(square);
   if (c.straight[chord] || nearest - 2.0 * c.miss > enough)
     return nearest;
-  if (!c.fine.empty()) {
-    square = 1e300; // the curve's foot may lie beside the chord's
-    const std::size_t begin = chord - std::min<std::size_t>(chord, 1),
-                      end = std::min<std::size_t>(chord + 2, STEPS);
-    for (std::size_t i = FINE * begin; i < FINE * end; ++i)
-      square = std::min(square, c.fine[i].squareTo(p));
-    return std::sqrt(square);
-  }
   constexpr double GOLDEN = 0.6180339887498949;
   const auto squareAt = [&](double s) { return (p - at(s, c.inset)).squaredNorm(); };
   double low = c.places[chord], high = c.places[chord + 1];
@@ -149,21 +141,70 @@ Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) co
                              (p - c.points[chord + 1]).squaredNorm()}));
 }
 
-void Meridian::refine() {
-  for (Curve& c : curves_) {
-    c.fine.clear();
+kernels::Outline Meridian::table(std::vector<float>& numbers) const {
+  std::vector<Chord> chords;
+  const auto begun = [&chords] { return chords.size(); };
+  std::size_t coarse[2] = {}, fine[2] = {};
+  for (std::size_t k = 0; k < curves_.size(); ++k) {
+    const Curve& c = curves_[k];
+    coarse[k] = begun();
+    chords.insert(chords.end(), c.chords.begin(), c.chords.end());
+    std::vector<Chord> pieces;
     Eigen::Vector2d from = c.points[0];
     for (std::size_t i = 0; i < STEPS; ++i)
-      for (std::size_t k = 1; k <= FINE; ++k) {
-        const double share = double(k) / double(FINE);
+      for (std::size_t part = 1; part <= FINE; ++part) {
+        const double share = double(part) / double(FINE);
         const Eigen::Vector2d to =
-            k == FINE
+            part == FINE
                 ? c.points[i + 1]
                 : at((1.0 - share) * c.places[i] + share * c.places[i + 1], c.inset);
-        c.fine.emplace_back(from, to);
+        pieces.emplace_back(from, to);
         from = to;
       }
+    fine[k] = begun();
+    chords.insert(chords.end(), pieces.begin(), pieces.begin() + FINE);
+    chords.insert(chords.end(), pieces.begin(), pieces.end());
+    for (int twice = 0; twice < 2; ++twice)
+      chords.insert(chords.end(), pieces.end() - FINE, pieces.end());
   }
+  const std::size_t edge = begun();
+  const std::vector<Chord> edges = straightSides();
+  chords.insert(chords.end(), edges.begin(), edges.end());
+  const std::size_t polygon = begun();
+  for (std::size_t i = 0, j = polygon_.size() - 1; i < polygon_.size(); j = i++) {
+    Chord side(polygon_[j], polygon_[i]);
+    side.inverse = side.side.y() != 0.0 ? side.side.x() / side.side.y() : 0.0;
+    chords.push_back(side);
+  }
+  const std::size_t n = chords.size();
+  numbers.resize(5 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Chord& c = chords[i];
+    const double values[] = {
+        c.begin.x(), c.begin.y(), c.side.x(), c.side.y(), c.inverse};
+    for (std::size_t k = 0; k < 5; ++k)
+      numbers[k * n + i] = static_cast<float>(values[k]);
+  }
+  const auto from = [&](std::size_t i) {
+    const float* first = numbers.data() + i;
+    return kernels::Sides{
+        first, first + n, first + 2 * n, first + 3 * n, first + 4 * n};
+  };
+  return {int(curves_.size()),
+          int(edges.size()),
+          int(polygon_.size()),
+          {from(coarse[0]), from(coarse[1])},
+          {from(fine[0]), from(fine[1])},
+          from(edge),
+          from(polygon)};
+}
+
+std::vector<Meridian::Chord> Meridian::straightSides() const {
+  const Eigen::Vector2d rim = curves_[0].points.back();
+  if (!s_.isHollow())
+    return {Chord({0.0, rim.y()}, rim)};
+  const Eigen::Vector2d corner = curves_[1].points.front();
+  return {Chord(curves_[1].points.back(), rim), Chord({0.0, corner.y()}, corner)};
 }
 
 double Meridian::distance(double rho, double z) const {
@@ -171,15 +212,8 @@ double Meridian::distance(double rho, double z) const {
   double nearest = 1e300;
   for (const Curve& c : curves_)
     nearest = std::min(nearest, distanceTo(c, p, nearest));
-  const Eigen::Vector2d edge = curves_[0].points.back();
-  const Eigen::Vector2d inner =
-      s_.isHollow() ? curves_[1].points.back() : Eigen::Vector2d(0.0, edge.y());
-  nearest = std::min(nearest, std::sqrt(Chord(inner, edge).squareTo(p)));
-  if (s_.isHollow()) {
-    const Eigen::Vector2d corner = curves_[1].points.front();
-    nearest =
-        std::min(nearest, std::sqrt(Chord({0.0, corner.y()}, corner).squareTo(p)));
-  }
+  for (const Chord& side : straightSides())
+    nearest = std::min(nearest, std::sqrt(side.squareTo(p)));
   return inPolygon(polygon_, p) ? -nearest : nearest;
 }
 
@@ -191,21 +225,26 @@ void openResiduals(const Superquadric& s,
                    const UnitPoints& points,
                    kernels::Residual residual,
                    float* out) {
-  Meridian all_round(s, Eigen::Vector2d::UnitX());
+  const Meridian all_round(s, Eigen::Vector2d::UnitX());
   const bool round = isRound(s);
-  if (round && points.size() > MANY)
-    all_round.refine();
-  const double size = std::cbrt(s.semi_axes.prod());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d local = s.toLocal(points[i].cast<double>());
-    double r = round ? all_round.distance(local.head<2>().norm(), local.z())
-                     : meridianDistance(s, local);
-    if (residual == kernels::Residual::GAUGE)
-      r /= size;
-    else if (residual == kernels::Residual::SOLINA)
-      r = std::pow(1.0 + r / size, 2) - 1.0;
-    out[i] = static_cast<float>(r);
-  }
+  if (round && points.size() > MANY) {
+    std::vector<float> numbers;
+    kernels::kernels().outlineDistances(
+        points.view(), toShape(s), all_round.table(numbers), out);
+  } else
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d local = s.toLocal(points[i].cast<double>());
+      out[i] = static_cast<float>(
+          round ? all_round.distance(local.head<2>().norm(), local.z())
+                : meridianDistance(s, local));
+    }
+  const auto size = static_cast<float>(std::cbrt(s.semi_axes.prod()));
+  if (residual == kernels::Residual::GAUGE)
+    std::transform(out, out + points.size(), out, [=](float r) { return r / size; });
+  else if (residual == kernels::Residual::SOLINA)
+    std::transform(out, out + points.size(), out, [=](float r) {
+      return (1.0F + r / size) * (1.0F + r / size) - 1.0F;
+    });
 }
 
 } // namespace pcl_sq::detail

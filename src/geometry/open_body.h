@@ -58,10 +58,10 @@ public:
    * \param[in] rho distance from the axis */
   double distance(double rho, double z) const;
 
-  /** \brief Makes distances cheap and this object dear: chords so short that none
-   * misses the curve by more than a STRAIGHT part of the body's size. For many points.
-   */
-  void refine();
+  /** \brief The outline as the kernels want it, its chords so short that none misses
+   * the curve by more than a STRAIGHT part of the body's size. For many points.
+   * \param[out] numbers of the outline, to be kept */
+  kernels::Outline table(std::vector<float>& numbers) const;
 
 private:
   /** \brief A side of a polygon. */
@@ -80,11 +80,12 @@ private:
     std::vector<double> places;          ///< s
     std::vector<Eigen::Vector2d> points; ///< rho, z
     std::vector<Chord> chords;           ///< between them
-    std::vector<Chord> fine;             ///< FINE in the place of each, once refined
     std::vector<bool> straight;          ///< whether the chord is as good as the curve
     double miss = 0.0;                   ///< by how much any chord misses the curve
   };
   Eigen::Vector2d at(double s, double inset) const;
+  /** \brief Rim, or lid, and floor. */
+  std::vector<Chord> straightSides() const;
   void addCurve(double inset, double low, double high);
   /** \brief Distance to a curve, or more than \a enough where it is sure to be. */
   double distanceTo(const Curve& curve, const Eigen::Vector2d& p, double enough) const;

@@ -169,6 +169,12 @@ void residualsOf(const Superquadric& s,
     kernels::kernels().taperedResiduals(points.view(), toShape(s), out);
     return;
   }
+  const bool as_fitted =
+      s.isBent() && s.bend_angle == 0.0 && s.epsilon2 == 1.0 && !s.isTapered();
+  if (as_fitted && residual == kernels::Residual::FOOT_POINT) {
+    kernels::kernels().bentResiduals(points.view(), toShape(s), float(s.bend), out);
+    return;
+  }
   for (std::size_t i = 0; i < points.size(); ++i)
     out[i] = static_cast<float>(residualAt(s, points[i].cast<double>(), residual));
 }

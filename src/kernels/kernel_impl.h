@@ -3,7 +3,9 @@
 // one file per instruction set, which defines PCL_SQ_LANES.
 #pragma once
 
+#include "kernel_bent.h"
 #include "kernel_sums.h"
+#include "kernel_vessel.h"
 
 namespace {
 
@@ -95,7 +97,11 @@ constexpr Kernels table(const char* name) {
           &taperedResiduals,
           &taperedEquations,
           &taperedPlanes,
-          &taperedRows};
+          &taperedRows,
+          &outlineDistances,
+          &vesselEquations,
+          &bentEquations,
+          &bentResiduals};
 }
 
 } // namespace

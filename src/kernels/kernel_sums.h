@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel_tapered.h"
+#include "kernel_weights.h"
 
 namespace {
 
@@ -52,70 +53,6 @@ inline void storeDerivatives(const Row& r, float (*rows)[BLOCK], std::size_t p) 
   store(rows[10] + p, r.factor * r.gauge.e2);
 }
 
-/** \brief Share and cost of a squared residual in the mixture. */
-struct Weight {
-  Float share, cost;
-};
-
-template <bool ROBUST>
-inline Weight weight(Float square, Float s, Float c, Float inverse_s, Float log_full) {
-  if (!ROBUST)
-    return {all(1.0F), square};
-  const Float e = exp(-s * square);
-  const Float total = e + c;
-  return {e * inverse(total), (log_full - log(total)) * inverse_s};
-}
-
-/** \brief Adds the products of one block's rows, kept as sums per lane.
- * \param[in] end of the block's points; zero up to the next whole vector */
-template <int R>
-inline void
-addProducts(const float (&rows)[R][BLOCK], std::size_t end, float (*lanes)[LANES]) {
-  static_assert(R % 3 == 0, "tiles of three rows");
-  for (int i = 0; i < R; i += 3)
-    for (int j = i; j < R; j += 3) {
-      Float s[9];
-      for (int k = 0; k < 9; ++k)
-        s[k] = load(lanes[k]);
-      for (std::size_t p = 0; p < end; p += LANES) {
-        const Float a0 = load(rows[i] + p), a1 = load(rows[i + 1] + p),
-                    a2 = load(rows[i + 2] + p);
-        const Float b0 = load(rows[j] + p), b1 = load(rows[j + 1] + p),
-                    b2 = load(rows[j + 2] + p);
-        s[0] += a0 * b0;
-        s[1] += a0 * b1;
-        s[2] += a0 * b2;
-        s[3] += a1 * b0;
-        s[4] += a1 * b1;
-        s[5] += a1 * b2;
-        s[6] += a2 * b0;
-        s[7] += a2 * b1;
-        s[8] += a2 * b2;
-      }
-      for (int k = 0; k < 9; ++k)
-        store(lanes[k], s[k]);
-      lanes += 9;
-    }
-}
-
-/** \brief Products of that many rows: the tiles of the upper triangle. */
-constexpr int productsOf(int rows) {
-  return 9 * (rows / 3) * (rows / 3 + 1) / 2;
-}
-
-/** \brief Moves the lanes' sums into double precision and clears them. */
-template <int R>
-inline void flush(float (&lanes)[productsOf(R)][LANES], double (&products)[R][R]) {
-  int tile = 0;
-  for (int i = 0; i < R; i += 3)
-    for (int j = i; j < R; j += 3, ++tile)
-      for (int k = 0; k < 9; ++k) {
-        float* s = lanes[9 * tile + k];
-        products[i + k / 3][j + k % 3] += static_cast<double>(sum(load(s)));
-        store(s, Float{});
-      }
-}
-
 /** \tparam R TAPERED_ROWS for a tapered body, which knows FOOT_POINT only */
 template <int R, Residual KIND, bool ROBUST, bool DERIVATIVES>
 void accumulate(const Points& points,
@@ -124,25 +61,17 @@ void accumulate(const Points& points,
                 SumsOf<R>& out) {
   constexpr bool TAPERED = R == TAPERED_ROWS;
   constexpr int RESIDUAL = TAPERED ? TAPERED_PARAMETERS : PARAMETERS; // its row
-  constexpr std::size_t FLUSH = 16; // blocks whose sums stay in single precision
   alignas(64) float rows[R][BLOCK];
-  alignas(64) float lanes[productsOf(R)][LANES] = {};
   alignas(64) float feet[4][BLOCK];
   const Lanes l = spread(shape);
   const Taper taper = {all(shape.kx), all(shape.ky)};
-  const Float s = all(m.inverse_two_sigma_squared), c = all(m.outlier);
-  const Float inverse_s = all(1.0F / m.inverse_two_sigma_squared);
-  const Float log_full = log(all(1.0F) + c);
-  const Float index = laneIndex();
-  __builtin_memset(&out, 0, sizeof(out));
-  std::size_t block = 0;
+  WeightedSums<R, RESIDUAL, ROBUST, DERIVATIVES> sums(m, out);
   for (std::size_t begin = 0; begin < points.count; begin += BLOCK) {
     const std::size_t rest = points.count - begin;
     const std::size_t size = rest < BLOCK ? rest : BLOCK;
     if constexpr (KIND == Residual::FOOT_POINT && !TAPERED)
       footBlock(l, points, begin, feet);
-    std::size_t p = 0;
-    for (; p < size; p += LANES) {
+    for (std::size_t p = 0; p < size; p += LANES) {
       const Vector y = local(l, points, begin + p);
       Row r;
       if constexpr (TAPERED)
@@ -155,34 +84,9 @@ void accumulate(const Points& points,
       if (DERIVATIVES)
         storeDerivatives(r, rows, p);
     }
-    Float cost{}, share{};
-    const Float valid_count = all(static_cast<float>(size));
-    for (p = 0; p < size; p += LANES) {
-      const Float valid = select(
-          index + all(static_cast<float>(p)) < valid_count, all(1.0F), all(0.0F));
-      const Float q = points.precision ? load(points.precision + begin + p) : all(1.0F);
-      const Float r = load(rows[RESIDUAL] + p);
-      const Weight w = weight<ROBUST>(q * r * r, s, c, inverse_s, log_full);
-      cost += valid * w.cost;
-      share += valid * w.share;
-      if (DERIVATIVES) {
-        const Float root = sqrt(valid * w.share * q);
-        for (int i = 0; i <= RESIDUAL; ++i)
-          store(rows[i] + p, root * load(rows[i] + p));
-        if constexpr (TAPERED)
-          store(rows[R - 1] + p, Float{});
-      }
-    }
-    out.cost += static_cast<double>(sum(cost));
-    out.share += static_cast<double>(sum(share));
-    if (DERIVATIVES) {
-      addProducts(rows, size, lanes);
-      if (++block % FLUSH == 0)
-        flush(lanes, out.products);
-    }
+    sums.add(points, begin, size, rows);
   }
-  if (DERIVATIVES)
-    flush(lanes, out.products);
+  sums.end();
 }
 
 template <Residual KIND, bool DERIVATIVES>

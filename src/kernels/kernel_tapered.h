@@ -107,6 +107,8 @@ public:
     }
     heights_[0] = -1.0F;
     heights_[SLICES] = 1.0F;
+    for (int k = 0; k <= SLICES; k += LANES)
+      store(scales_ + k, scaleOf(logLeft(logHeight(load(heights_ + k)))));
   }
 
   /** \brief The rows of a vector of planes: derivatives and residual. */
@@ -155,7 +157,9 @@ public:
 
 private:
   static constexpr int SLICES = 16;
-  static constexpr int REFINEMENTS = 18; ///< golden sections of two slices
+  /** \brief Golden sections of two slices: the height is then known to a hundredth of
+   * them, and how far the body reaches to the square of that. */
+  static constexpr int REFINEMENTS = 10;
 
   struct Slice {
     Float height, log_height; ///< z / a3
@@ -170,13 +174,23 @@ private:
   /** \brief Keeps the sign, and away from zero. */
   static Float positive(Float x) { return withSign(max(abs(x), all(1e-12F)), x); }
 
+  static Float logHeight(Float height) { return log(max(abs(height), all(1e-12F))); }
+  Float logLeft(Float log_height) const {
+    return log(max(1.0F - exp(max(lanes_.q1 * log_height, all(-80.0F))), all(1e-30F)));
+  }
+  Float scaleOf(Float log_left) const { return exp(lanes_.r1 * log_left); }
+
   Slice at(const Vector& n, Float height) const {
     Slice c;
+    c.log_height = logHeight(height);
+    c.log_left = logLeft(c.log_height);
+    setReach(n, height, scaleOf(c.log_left), c);
+    return c;
+  }
+
+  void setReach(const Vector& n, Float height, Float scale, Slice& c) const {
     c.height = height;
-    c.log_height = log(max(abs(height), all(1e-12F)));
-    c.log_left =
-        log(max(1.0F - exp(max(lanes_.q1 * c.log_height, all(-80.0F))), all(1e-30F)));
-    c.scale = exp(lanes_.r1 * c.log_left);
+    c.scale = scale;
     c.fx = growth(taper_.kx, height);
     c.fy = growth(taper_.ky, height);
     c.u = abs(n.x) * axis_[0] * c.fx;
@@ -184,14 +198,20 @@ private:
     c.section =
         logNorm(log(max(c.u, all(1e-12F))), log(max(c.v, all(1e-12F))), p_, inverse_p_);
     c.reach = n.z * axis_[2] * height + c.scale * exp(c.section.value);
-    return c;
+  }
+
+  /** \brief How far one of the table's slices reaches. */
+  Float reachOf(const Vector& n, int k) const {
+    Slice c;
+    setReach(n, all(heights_[k]), all(scales_[k]), c);
+    return c.reach;
   }
 
   Slice farthest(const Vector& n) const {
     Float low = all(heights_[0]), high = all(heights_[1]), best = low;
-    Float most = at(n, best).reach;
+    Float most = reachOf(n, 0);
     for (int k = 1; k <= SLICES; ++k) {
-      const Float height = all(heights_[k]), reach = at(n, height).reach;
+      const Float height = all(heights_[k]), reach = reachOf(n, k);
       const auto better = reach > most;
       most = select(better, reach, most);
       best = select(better, height, best);
@@ -222,7 +242,8 @@ private:
   Lanes lanes_;
   Taper taper_;
   Float axis_[3], half_e2_, inverse_e1_, p_, inverse_p_;
-  float heights_[SLICES + 1];
+  alignas(64) float heights_[SLICES + LANES] = {};
+  alignas(64) float scales_[SLICES + LANES];
 };
 
 } // namespace

@@ -88,6 +88,53 @@ struct PlaneSumsOf {
 };
 using PlaneSums = PlaneSumsOf<ROWS>;
 
+/** \brief Sides of a polygon or chords of a curve, in the half plane (rho, z). */
+struct Sides {
+  const float* x;       ///< where each begins: its distance from the axis
+  const float* y;       ///< and its height
+  const float* along_x; ///< from there to where it ends
+  const float* along_y;
+  const float* inverse; ///< one over its squared length
+};
+
+/** \brief The outline of half a section through the axis of a solid of revolution, in
+ * the unit of the points: two curves at most, and straight sides. */
+struct Outline {
+  static constexpr int STEPS = 40; ///< chords of a curve
+  static constexpr int FINE = 8;   ///< chords in the place of each, to be exact
+  int curves, edges, corners;
+  Sides coarse[2];
+  /** \brief FINE x (STEPS + 3): those of the first and of the last chord once more
+   * before and twice more behind. */
+  Sides fine[2];
+  Sides edge;
+  /** \brief All sides, the axis too; of them \a inverse is along_x / along_y. */
+  Sides polygon;
+};
+
+/** \brief A chord of an open vessel's meridian in the half plane (rho, z). */
+struct VesselChord {
+  static constexpr int SLOPES = 6; ///< ln a, ln a3, e1, k, rim, ln wall
+  float x, y;                      ///< where it begins: distance from the axis, height
+  float along_x, along_y;          ///< from there to where it ends
+  float inverse;                   ///< one over its squared length; 0 where it has none
+  float begin[2][SLOPES];          ///< derivatives of its ends, (rho, z)
+  float end[2][SLOPES];
+};
+
+/** \brief An open vessel of revolution about z: what is seen from outside, then what
+ * is seen through its opening. */
+struct Vessel {
+  const VesselChord* chords;
+  int outer, count; ///< chords of the outside, of both
+  bool has_eye;     ///< else each point is the nearer wall's
+  float eye[3];     ///< own frame
+  float rim;        ///< its height
+  /** \brief Radii of the opening: rays that cross within the larger one may see the
+   * inside, those beyond the smaller one the outside. */
+  float wide, narrow;
+};
+
 /** \brief One implementation of the loops. */
 struct Kernels {
   const char* name;
@@ -107,6 +154,17 @@ struct Kernels {
   void (*taperedPlanes)(const Planes&, const Shape&, PlaneSumsOf<TAPERED_ROWS>&);
   /** \brief The rows themselves, of at most a block of planes. */
   void (*taperedRows)(const Planes&, const Shape&, float (&rows)[TAPERED_ROWS][BLOCK]);
+  /** \brief Signed distance of each point to a solid of revolution, negative inside;
+   * of the shape only its place is read. */
+  void (*outlineDistances)(const Points&, const Shape&, const Outline&, float* out);
+  /** \brief normalEquations() of the distance to a vessel; parameters t, w about x and
+   * y, and a chord's slopes. Of the shape only its place is read. */
+  void (*vesselEquations)(
+      const Points&, const Shape&, const Vessel&, const Mixture&, Sums&);
+  /** \brief normalEquations() of the distance to the foot point of a body with e2 = 1
+   * that is bent towards its x axis; the curvature stands in e2's place. */
+  void (*bentEquations)(const Points&, const Shape&, float bend, const Mixture&, Sums&);
+  void (*bentResiduals)(const Points&, const Shape&, float bend, float* out);
 };
 
 enum class Isa { PORTABLE, SSE2, AVX2, AVX512 };

@@ -61,12 +61,6 @@ namespace {
 
 using namespace tuning::observe_object;
 
-bool knows(const std::vector<SilhouetteLine>& lines, const SilhouetteLine& line) {
-  return std::any_of(lines.begin(), lines.end(), [&](const SilhouetteLine& other) {
-    return other.direction == line.direction;
-  });
-}
-
 std::vector<ContourPoint> asOwn(std::vector<ContourPoint> contour) {
   for (ContourPoint& p : contour)
     p.own = true;
@@ -76,15 +70,18 @@ std::vector<ContourPoint> asOwn(std::vector<ContourPoint> contour) {
 /** \brief Where the outline is not the object's own, at an occluder or the border of
  * the image, nobody knows how it goes on. A body reaches to there, for it is seen, and
  * ends about there unless evidence says more.
- * \param[in] outline of the object or of a piece of it
- * \param[in] known lines of that */
+ * \param[in] outline of the object or of a piece of it */
 void addHiddenEnds(const ObservedObject& object,
-                   const std::vector<ContourPoint>& outline,
-                   const std::vector<SilhouetteLine>& known,
+                   const TouchingLines& outline,
                    int lines,
                    ViewEvidence& evidence) {
   if (object.pixels.cells.empty())
     return;
+  const bool all_own = std::all_of(object.contour.begin(),
+                                   object.contour.end(),
+                                   [](const ContourPoint& p) { return p.own; });
+  if (all_own && !(object.table && object.hidden_below))
+    return; // nothing of it is hidden
   const auto endOf = [&object](const SilhouetteLine& line) {
     TangentPlane end = tangentPlane(object.camera, line, 1.0, object.depth);
     end.sigma = HIDDEN_SIGMA * object.extent;
@@ -109,32 +106,34 @@ void addHiddenEnds(const ObservedObject& object,
       }
     return high - low >= (atBorder(line.contact) ? side : 0.0);
   };
-  std::vector<ContourPoint> all = asOwn(object.contour);
+  const TouchingLines own = touchingLines(object.contour, lines);
+  std::vector<SilhouetteLine> all = own.lines;
   // it stands on the table, however little of it is seen
   if (object.table && object.hidden_below) {
+    std::vector<ContourPoint> with_feet = asOwn(object.contour);
     const Eigen::Index step = std::max<Eigen::Index>(1, object.points.cols() / FEET);
     for (Eigen::Index i = 0; i < object.points.cols(); i += step) {
       const Eigen::Vector3d p = object.points.col(i);
       ContourPoint foot;
       foot.pixel =
           object.camera.project(p - object.table->height(p) * object.table->normal);
-      all.push_back(foot);
+      with_feet.push_back(foot);
     }
+    all = silhouetteLines(with_feet, lines);
   }
   std::vector<TangentPlane> behind;
-  const std::vector<SilhouetteLine> pieces = silhouetteLines(asOwn(outline), lines);
-  const std::vector<SilhouetteLine> own = silhouetteLines(object.contour, lines);
-  for (const SilhouetteLine& line : silhouetteLines(all, lines)) {
+  const std::vector<SilhouetteLine>& pieces = outline.lines;
+  for (const SilhouetteLine& line : all) {
     const auto reached =
         std::find_if(pieces.begin(), pieces.end(), [&](const SilhouetteLine& other) {
           return other.direction == line.direction && endsAt(other);
         });
     // a foot that nobody sees is beyond what is reached
     const bool is_seen = object.pixels(int(line.contact.x()), int(line.contact.y()));
-    const bool reaches = is_seen && reached != pieces.end() && !knows(known, line);
+    const bool reaches = is_seen && reached != pieces.end() && !outline.knows(line);
     if (reaches)
       evidence.tangents.push_back(endOf(*reached));
-    if (knows(own, line) || (reaches && reached->offset == line.offset))
+    if (own.knows(line) || (reaches && reached->offset == line.offset))
       continue;
     const bool hides = object.outline == OutlineSource::MASK && !atBorder(line.contact);
     (hides ? behind : evidence.limits).push_back(endOf(line));
@@ -153,17 +152,18 @@ ViewEvidence ObservedObject::evidence(const std::vector<ContourPoint>& outline_p
                                       int lines,
                                       bool on_table) const {
   ViewEvidence e;
-  std::vector<SilhouetteLine> known;
+  const TouchingLines touching = touchingLines(outline_points, lines);
   if (hasCamera()) {
-    known = silhouetteLines(outline_points, lines);
-    for (SilhouetteLine line : known) {
+    for (std::size_t i = 0; i < touching.lines.size(); ++i) {
+      SilhouetteLine line = touching.lines[i];
       line.offset -= outline_offset;
-      e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
+      if (touching.known[i])
+        e.silhouette.push_back(tangentPlane(camera, line, outline_sigma, depth));
     }
     e.dilation_sigma = outline_dilation * depth / std::sqrt(camera.fx * camera.fy);
     e.viewpoint = camera.center;
   }
-  addHiddenEnds(*this, outline_points, known, lines, e);
+  addHiddenEnds(*this, touching, lines, e);
   if (table) {
     e.up = table->normal;
     TangentPlane below;

@@ -51,6 +51,17 @@ double lowestOutline(const ObservedObject& observed);
  * \param[in] rim pixels beside the outline that were left out */
 void findFoot(Observation& o, const CellRect& box, int rim);
 
+/** \brief All lines that touch an outline, and which of them silhouetteLines() has. */
+struct TouchingLines {
+  std::vector<SilhouetteLine> lines;
+  std::vector<bool> known;
+
+  bool knows(const SilhouetteLine& line) const;
+};
+TouchingLines touchingLines(const std::vector<ContourPoint>& contour,
+                            int count,
+                            double tolerance = 1.0);
+
 /** \brief Extent and depth from the points. */
 void measure(ObservedObject& observed);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/silhouette.h"
 
+#include "observe/observe_parts.h"
 #include "util/outer_points.h"
 
 #include <algorithm>
@@ -61,12 +62,20 @@ std::vector<ContourPoint> convexHull(const std::vector<ContourPoint>& contour) {
   return hull;
 }
 
-std::vector<SilhouetteLine>
-silhouetteLines(const std::vector<ContourPoint>& contour, int count, double tolerance) {
-  std::vector<SilhouetteLine> lines;
+bool detail::TouchingLines::knows(const SilhouetteLine& line) const {
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (known[i] && lines[i].direction == line.direction)
+      return true;
+  return false;
+}
+
+detail::TouchingLines detail::touchingLines(const std::vector<ContourPoint>& contour,
+                                            int count,
+                                            double tolerance) {
+  TouchingLines all;
   const std::vector<ContourPoint> hull = convexHull(contour);
   if (hull.size() < 3)
-    return lines;
+    return all;
   std::vector<ContourPoint> foreign, own;
   for (const ContourPoint& p : contour)
     (p.own ? own : foreign).push_back(p);
@@ -97,9 +106,19 @@ silhouetteLines(const std::vector<ContourPoint>& contour, int count, double tole
              });
     };
     // a straight side is tangent all along, wherever the outline is lost beyond its end
-    if (unknown.empty() || std::any_of(own.begin(), own.end(), apart))
-      lines.push_back(line);
+    all.known.push_back(unknown.empty() || std::any_of(own.begin(), own.end(), apart));
+    all.lines.push_back(line);
   }
+  return all;
+}
+
+std::vector<SilhouetteLine>
+silhouetteLines(const std::vector<ContourPoint>& contour, int count, double tolerance) {
+  const detail::TouchingLines all = detail::touchingLines(contour, count, tolerance);
+  std::vector<SilhouetteLine> lines;
+  for (std::size_t i = 0; i < all.lines.size(); ++i)
+    if (all.known[i])
+      lines.push_back(all.lines[i]);
   return lines;
 }
 

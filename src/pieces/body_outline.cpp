@@ -27,8 +27,8 @@ public:
   void operator()(const std::vector<Eigen::Vector3d>& directions,
                   std::vector<double>& reach) const {
     reach.resize(directions.size());
-    if (body_.isTapered() && !body_.isBent() && !body_.isCut()) {
-      tapered(directions, reach);
+    if (!body_.isBent() && !body_.isCut()) {
+      byKernels(directions, reach);
       return;
     }
     for (std::size_t i = 0; i < directions.size(); ++i)
@@ -49,8 +49,8 @@ private:
     return most;
   }
 
-  void tapered(const std::vector<Eigen::Vector3d>& directions,
-               std::vector<double>& reach) const {
+  void byKernels(const std::vector<Eigen::Vector3d>& directions,
+                 std::vector<double>& reach) const {
     using kernels::BLOCK;
     alignas(64) float x[BLOCK] = {}, y[BLOCK] = {}, z[BLOCK] = {}, none[BLOCK] = {},
                       one[BLOCK] = {}, least[BLOCK] = {};

@@ -78,13 +78,9 @@ Covered coveredFreeSpace(const PieceContext& context,
 }
 
 Covered coveredFreeSpace(const PieceContext& context, const Superquadric& body) {
-  // beyond the outline of a body that is not plain no costly search along the ray
+  // beyond the outline no costly search along the ray
   return coveredFreeSpace(
-      context,
-      body,
-      body.isPlain()
-          ? BodyOutline()
-          : BodyOutline(body, context.observed.camera.center, OUTLINE_PLANES));
+      context, body, BodyOutline(body, context.observed.camera.center, OUTLINE_PLANES));
 }
 
 FreeSpaceCost::FreeSpaceCost(const PieceContext& context, const Piece& piece)

@@ -11,15 +11,6 @@ constexpr double ROUNDING = 1e-14;
 constexpr double TRUST = 0.7; ///< largest step of an angle, a logarithm, an exponent
 constexpr double TAPER_TRUST = 0.3; ///< largest step of a taper
 
-kernels::Mixture mixture(const LmOptions& o) {
-  kernels::Mixture m;
-  if (o.sigma > 0.0 && o.outlier > 0.0) {
-    m.inverse_two_sigma_squared = static_cast<float>(0.5 / (o.sigma * o.sigma));
-    m.outlier = static_cast<float>(std::clamp(o.outlier, 1e-12, 1e6));
-  }
-  return m;
-}
-
 /** \brief Shortens a part of a step. \return whether it did */
 template <int N>
 bool shorten(Eigen::Matrix<double, N, 1>& step, int begin, int size, double trust) {
@@ -52,23 +43,14 @@ ParameterSpace ParameterSpace::rotational() {
   return space;
 }
 
-namespace {
-
-template <int N, int R>
-SquareSums<N> squaresOf(const kernels::SumsOf<R>& sums) {
-  SquareSums<N> e;
-  for (int i = 0; i < N; ++i) {
-    for (int j = i; j < N; ++j)
-      e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
-    e.jtr[i] = sums.products[i][N];
+kernels::Mixture mixtureOf(const LmOptions& o) {
+  kernels::Mixture m;
+  if (o.sigma > 0.0 && o.outlier > 0.0) {
+    m.inverse_two_sigma_squared = static_cast<float>(0.5 / (o.sigma * o.sigma));
+    m.outlier = static_cast<float>(std::clamp(o.outlier, 1e-12, 1e6));
   }
-  e.cost = e.points_cost = sums.cost;
-  e.share = sums.share;
-  e.weighted = sums.products[N][N];
-  return e;
+  return m;
 }
-
-} // namespace
 
 template <>
 SquareSums<11> sumsOf<11>(const UnitPoints& points,
@@ -76,7 +58,7 @@ SquareSums<11> sumsOf<11>(const UnitPoints& points,
                           const LmOptions& options) {
   kernels::Sums sums;
   kernels::kernels().normalEquations(
-      points.view(), toShape(model), options.residual, mixture(options), sums);
+      points.view(), toShape(model), options.residual, mixtureOf(options), sums);
   return squaresOf<11>(sums);
 }
 
@@ -86,7 +68,7 @@ SquareSums<13> sumsOf<13>(const UnitPoints& points,
                           const LmOptions& options) {
   kernels::SumsOf<kernels::TAPERED_ROWS> sums;
   kernels::kernels().taperedEquations(
-      points.view(), toShape(model), mixture(options), sums);
+      points.view(), toShape(model), mixtureOf(options), sums);
   return squaresOf<13>(sums);
 }
 
@@ -96,7 +78,7 @@ double evaluateCost(const UnitPoints& points,
                     double* share) {
   kernels::Sums sums;
   kernels::kernels().evaluate(
-      points.view(), toShape(model), options.residual, mixture(options), sums);
+      points.view(), toShape(model), options.residual, mixtureOf(options), sums);
   if (share)
     *share = sums.share;
   return sums.cost;

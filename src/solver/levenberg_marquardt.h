@@ -69,6 +69,24 @@ template <int N>
 SquareSums<N>
 sumsOf(const UnitPoints& points, const Superquadric& model, const LmOptions& options);
 
+/** \brief The options' mixture for the kernels. */
+kernels::Mixture mixtureOf(const LmOptions& options);
+
+/** \brief What the kernels have summed up, by its name. */
+template <int N, int R>
+SquareSums<N> squaresOf(const kernels::SumsOf<R>& sums) {
+  SquareSums<N> e;
+  for (int i = 0; i < N; ++i) {
+    for (int j = i; j < N; ++j)
+      e.jtj(i, j) = e.jtj(j, i) = sums.products[i][j];
+    e.jtr[i] = sums.products[i][N];
+  }
+  e.cost = e.points_cost = sums.cost;
+  e.share = sums.share;
+  e.weighted = sums.products[N][N];
+  return e;
+}
+
 /** \brief Cost alone. */
 double evaluateCost(const UnitPoints& points,
                     const Superquadric& model,

@@ -38,6 +38,56 @@ struct LmLimits {
 template <int N>
 using Basis = Eigen::Matrix<double, N, Eigen::Dynamic, 0, N, N>;
 
+/** \brief Equations along the columns of a basis. They have few entries, mostly one of
+ * one: sums over those are as good as products of matrices, and quicker. */
+template <int N>
+class Along {
+public:
+  explicit Along(const Basis<N>& basis) : columns_(static_cast<int>(basis.cols())) {
+    for (int c = 0; c < columns_; ++c)
+      for (int i = 0; i < N; ++i)
+        if (basis(i, c) != 0.0) {
+          rows_[c][counts_[c]] = i;
+          values_[c][counts_[c]++] = basis(i, c);
+        }
+  }
+
+  /** \param[in] whole symmetric \param[out] part its lower half is filled */
+  void reduce(const Eigen::Matrix<double, N, N>& whole,
+              Eigen::Matrix<double, N, N>& part) const {
+    for (int a = 0; a < columns_; ++a)
+      for (int b = a; b < columns_; ++b) {
+        double sum = 0.0;
+        for (int i = 0; i < counts_[a]; ++i)
+          for (int k = 0; k < counts_[b]; ++k)
+            sum += values_[a][i] * values_[b][k] * whole(rows_[a][i], rows_[b][k]);
+        part(b, a) = sum;
+      }
+  }
+  void reduce(const Eigen::Matrix<double, N, 1>& whole,
+              Eigen::Matrix<double, N, 1>& part) const {
+    for (int a = 0; a < columns_; ++a) {
+      part[a] = 0.0;
+      for (int i = 0; i < counts_[a]; ++i)
+        part[a] += values_[a][i] * whole[rows_[a][i]];
+    }
+  }
+  /** \brief The whole step of steps along the columns. */
+  Eigen::Matrix<double, N, 1> whole(const Eigen::Matrix<double, N, 1>& part) const {
+    Eigen::Matrix<double, N, 1> step = Eigen::Matrix<double, N, 1>::Zero();
+    for (int a = 0; a < columns_; ++a)
+      for (int i = 0; i < counts_[a]; ++i)
+        step[rows_[a][i]] += values_[a][i] * part[a];
+    return step;
+  }
+
+private:
+  int columns_;
+  int counts_[N] = {};
+  int rows_[N][N];
+  double values_[N][N];
+};
+
 /** \brief A minimum, and how it was reached. \tparam Problem see minimiseSquares() */
 template <typename Problem>
 struct LmSummary {
@@ -72,7 +122,7 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
   r.equations = problem.evaluate(start);
   r.termination = Termination::MAX_ITERATIONS;
   const int n = std::min(N, static_cast<int>(basis.cols()));
-  const bool all = n == N && basis.isIdentity(0.0);
+  const Along<N> along(basis);
   const bool by_steps = limits.cost_rounding > 0.0;
   double damping = limits.initial_damping;
   bool fresh = true; // the equations changed since they were last reduced
@@ -86,13 +136,8 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
       break;
     }
     if (fresh) {
-      if (all) {
-        jtj = r.equations.jtj;
-        jtr = r.equations.jtr;
-      } else {
-        jtj.topLeftCorner(n, n).noalias() = basis.transpose() * r.equations.jtj * basis;
-        jtr.head(n).noalias() = basis.transpose() * r.equations.jtr;
-      }
+      along.reduce(r.equations.jtj, jtj);
+      along.reduce(r.equations.jtr, jtr);
       for (int i = 0; i < n; ++i)
         frozen[i] = problem.isActiveBound(r.model, -jtr[i] * basis.col(i));
       fresh = false;
@@ -107,7 +152,7 @@ LmSummary<Problem> minimiseSquares(const Problem& problem,
         r.termination = Termination::COST_CHANGE_TOO_SMALL;
         break;
       }
-      Eigen::Matrix<double, N, 1> full = basis * step.head(n);
+      const Eigen::Matrix<double, N, 1> full = along.whole(step);
       bool limited = false;
       const typename Problem::Model candidate = problem.moved(r.model, full, limited);
       const bool short_step = full.cwiseAbs().maxCoeff() <= limits.step_tolerance;

@@ -59,9 +59,9 @@ bool detail::findPlane(const std::vector<Eigen::Vector3d>& points,
     return false;
   std::mt19937 engine(5489U);
   const auto pick = [&] { return points[engine() % points.size()]; };
-  std::vector<Eigen::Vector3d> sample;
+  Eigen::Matrix<double, SAMPLE, 3> sample; // a column a coordinate: quick to go through
   for (std::size_t i = 0; i < SAMPLE; ++i)
-    sample.push_back(pick());
+    sample.row(Eigen::Index(i)) = pick();
   std::size_t best = 0;
   for (int k = 0; k < demand.iterations; ++k) {
     const Eigen::Vector3d a = pick(), b = pick(), c = pick();
@@ -71,9 +71,19 @@ bool detail::findPlane(const std::vector<Eigen::Vector3d>& points,
     TableModel t;
     t.normal = normal.normalized();
     t.offset = -t.normal.dot(a);
+    // given up once all that are left cannot make it the best
+    constexpr std::size_t AT_ONCE = 60;
+    static_assert(SAMPLE % AT_ONCE == 0, "whole blocks");
     std::size_t votes = 0;
-    for (const Eigen::Vector3d& p : sample)
-      votes += std::abs(t.height(p)) <= inlier_distance;
+    for (std::size_t i = 0; i < SAMPLE && votes + (SAMPLE - i) > best; i += AT_ONCE) {
+      const auto block = sample.middleRows<AT_ONCE>(Eigen::Index(i));
+      const Eigen::Array<double, AT_ONCE, 1> heights =
+          (block.col(0) * t.normal.x() + block.col(1) * t.normal.y() +
+           block.col(2) * t.normal.z())
+              .array() +
+          t.offset;
+      votes += std::size_t((heights.abs() <= inlier_distance).count());
+    }
     if (votes > best) {
       best = votes;
       plane = t;

@@ -161,6 +161,10 @@ bool meetsRay(const Superquadric& s,
   range.enter = std::max(range.enter, 0.0);
   const Superquadric whole = wholeOf(s);
   if (s.isDeformed()) {
+    // most rays that meet it do so in the middle
+    const double middle = 0.5 * (range.enter + range.leave);
+    if (whole.gauge(origin + middle * direction) <= 1.0)
+      return true;
     double gauge;
     detail::deepest(whole, origin, direction, range, gauge);
     return gauge <= 1.0;

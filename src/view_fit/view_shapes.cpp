@@ -50,6 +50,8 @@ double farAbove(double cost, const ViewProblem& problem) {
   return 2.0 * (cost + PARAMETERS * std::log(n) * std::max(1.0, cost / n));
 }
 
+constexpr int DESCRIBED = 6; ///< steps from another description
+
 class Families {
 public:
   /** \param[in] general fit; those are given up that stay far above it */
@@ -186,8 +188,13 @@ Trial bestDescription(const ViewProblem& problem, Trial best) {
     parallelFor(trials.size(), problem.options().threads, [&](std::size_t i) {
       trials[i] = best;
       trials[i].model = others[i];
-      trials[i] = problem.minimise(
-          trials[i], problem.medium(), kernels::Residual::FOOT_POINT, 6);
+      trials[i] = problem.minimise(trials[i],
+                                   problem.medium(),
+                                   kernels::Residual::FOOT_POINT,
+                                   DESCRIBED,
+                                   {},
+                                   false,
+                                   {DESCRIBED / 2, farAbove(best.cost, problem)});
     });
     for (const Trial& t : trials)
       if (t.cost < next.cost)

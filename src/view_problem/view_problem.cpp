@@ -54,6 +54,12 @@ double halfWidthAcross(const UnitPoints& points, const Eigen::Vector3d& directio
   return 0.5 * (double(*(along.end() - 1 - cut)) - low);
 }
 
+/** \brief Points as so many independent observations. */
+double observedPoints(const UnitPoints& points, const ViewFitOptions& options) {
+  const double all = double(points.size());
+  return options.effective_points > 0.0 ? std::min(options.effective_points, all) : all;
+}
+
 } // namespace
 
 bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
@@ -72,7 +78,10 @@ bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
         precision.push_back(options.precision[std::size_t(i)]);
     all_.setPrecision(precision);
   }
-  medium_ = subset(all_, MEDIUM_POINTS);
+  // where neighbours share their errors more points say the same again
+  const auto telling =
+      static_cast<std::size_t>(SAMPLES * observedPoints(all_, options_));
+  medium_ = subset(all_, std::clamp(telling, FEWEST_POINTS, MEDIUM_POINTS));
   coarse_ = subset(medium_, COARSE_POINTS);
   cost_.silhouette = toUnit(evidence.silhouette, frame_);
   cost_.tangents = toUnit(evidence.tangents, frame_);
@@ -104,10 +113,8 @@ bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
 }
 
 double ViewProblem::observations() const {
-  const double points = options_.effective_points > 0.0
-                            ? std::min(options_.effective_points, double(all_.size()))
-                            : double(all_.size());
-  return points + double(cost_.silhouette.size() + cost_.tangents.size());
+  return observedPoints(all_, options_) +
+         double(cost_.silhouette.size() + cost_.tangents.size());
 }
 
 LmOptions ViewProblem::limits(double sigma) const {
@@ -130,11 +137,7 @@ PlaneCost ViewProblem::planes(double sigma, const UnitPoints& points, bool few) 
 }
 
 double ViewProblem::unitOf(double sigma, const UnitPoints& points) const {
-  const double effective =
-      options_.effective_points > 0.0
-          ? std::min(options_.effective_points, double(all_.size()))
-          : double(all_.size());
-  return sigma * std::sqrt(double(points.size()) / effective);
+  return sigma * std::sqrt(double(points.size()) / observedPoints(all_, options_));
 }
 
 Trial ViewProblem::minimise(const Trial& start,
