@@ -225,14 +225,10 @@ bool depthOddsInBox(const ColorCloud& cloud,
   const cv::Mat others = grid.toPixels(background) & ~mine;
   const cv::Mat to_mine = distanceTo(mine), to_others = distanceTo(others);
   odds = cv::Mat::zeros(window.size(), CV_32F);
-  odds.forEach<float>([&](float& o, const int* at) {
-    if (mine.at<std::uint8_t>(at[0], at[1]) != 0)
-      o = told.at<float>(at[0], at[1]) *
-          std::min(1.0F, to_others.at<float>(at[0], at[1]) / static_cast<float>(RIM));
-    else if (others.at<std::uint8_t>(at[0], at[1]) != 0)
-      o = -float(MOST) *
-          std::min(1.0F, to_mine.at<float>(at[0], at[1]) / static_cast<float>(RIM));
-  });
+  const cv::Mat inwards = cv::min(to_others / RIM, 1.0F);
+  const cv::Mat outwards = cv::min(to_mine / RIM, 1.0F) * -float(MOST);
+  cv::Mat(told.mul(inwards)).copyTo(odds, mine);
+  outwards.copyTo(odds, others);
   return true;
 }
 

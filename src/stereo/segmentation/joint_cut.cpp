@@ -40,11 +40,13 @@ learnColors(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background
   const double left = cv::countNonZero((p <= 127) & background) / double(outside);
   colors.trust = std::clamp(0.5 * (right + left), 0.5, MOST_TRUST);
   const double most = std::log(colors.trust / (1.0 - colors.trust));
-  p.forEach<std::uint8_t>([&](const std::uint8_t& value, const int* at) {
-    const double q = std::clamp(double(value) / 255.0, 0.02, 0.98);
-    colors.odds.at<float>(at[0], at[1]) =
+  cv::Mat odds_of(1, 256, CV_32F);
+  for (int value = 0; value < 256; ++value) {
+    const double q = std::clamp(value / 255.0, 0.02, 0.98);
+    odds_of.at<float>(value) =
         static_cast<float>(std::clamp(std::log(q / (1.0 - q)), -most, most));
-  });
+  }
+  cv::LUT(p, odds_of, colors.odds);
   return colors;
 }
 
