@@ -82,7 +82,9 @@ def judge(model, mask, box, truth):
     bodies = [surface(part) for part in model["superquadrics"]]
     everything = np.concatenate(bodies)
     width, height = np.ptp(everything, 0)[:2]
-    sides = [2 * np.array(part["semi_axes"]) for part in model["superquadrics"]]
+    # of a cut body what is there, up to its rim
+    sides = [np.array(part["semi_axes"]) * (2, 2, 1 + part.get("rim", 1))
+             for part in model["superquadrics"]]
     nonsense = (model["rms_distance"] > 0.03 or min(s.min() for s in sides) < 1e-3 or
                 max(s.max() for s in sides) > 1.5)
     covered = silhouette(bodies, model["stereo"]["camera"], mask.size)
