@@ -70,34 +70,4 @@ inline Eigen::Vector3d logGaugeGradient(const LogGauge& g,
           shareOver(g.outer_z, local.z())};
 }
 
-/** \brief Replaces a foot by the place on the surface that is nearest along one of the
- * axes, where that is nearer than \a step (M4). */
-inline void takeNearerAlongAxes(const Eigen::Vector3d& local,
-                                const Eigen::Vector3d& semi_axes,
-                                double epsilon1,
-                                double epsilon2,
-                                double step,
-                                Eigen::Vector3d& foot) {
-  const Eigen::Array3d over = local.cwiseAbs().cwiseQuotient(semi_axes).array();
-  const double q1 = 2.0 / epsilon1, q2 = 2.0 / epsilon2;
-  const double x = std::pow(over.x(), q2), y = std::pow(over.y(), q2);
-  const double z = std::pow(over.z(), q1);
-  const double section = std::pow(x + y, q1 / q2);                // of x and y in F
-  const double left = z < 1.0 ? std::pow(1.0 - z, q2 / q1) : 0.0; // for x and y there
-  // of each axis: its term in F where the surface is met along it
-  const double terms[] = {left - y, left - x, 1.0 - section};
-  const double powers[] = {1.0 / q2, 1.0 / q2, 1.0 / q1};
-  for (int k = 0; k < 3; ++k) {
-    if (!(terms[k] > 0.0))
-      continue;
-    const double height = semi_axes[k] * std::pow(terms[k], powers[k]);
-    const double off = std::abs(height - std::abs(local[k]));
-    if (off < step) {
-      step = off;
-      foot = local;
-      foot[k] = std::copysign(height, local[k]);
-    }
-  }
-}
-
 } // namespace pcl_sq::detail

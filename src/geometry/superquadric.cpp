@@ -181,11 +181,8 @@ double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
     return radial;
   // the tangent plane at the radial projection, then back onto the surface
   const Eigen::Vector3d radial_point = local * std::exp(-g.value);
-  const double step = (local - radial_point).dot(gradient) / slope2;
-  Eigen::Vector3d foot = local - gradient * step;
-  if (semi_axes.maxCoeff() > double(kernels::FLAT) * semi_axes.minCoeff())
-    detail::takeNearerAlongAxes(
-        local, semi_axes, epsilon1, epsilon2, std::abs(step) * std::sqrt(slope2), foot);
+  const Eigen::Vector3d foot =
+      local - gradient * ((local - radial_point).dot(gradient) / slope2);
   if (foot.isZero(0.0))
     return radial;
   const LogGauge at_foot = detail::logGauge(foot, semi_axes, epsilon1, epsilon2);
