@@ -52,11 +52,6 @@ inline constexpr std::size_t MIN_POINTS = 12;
 inline constexpr std::size_t COARSE_POINTS = 128;
 /// [points] of its refinement; budget
 inline constexpr std::size_t MEDIUM_POINTS = 512;
-/// [points] of it for each independent observation: neighbours share their errors, and
-/// twice as many samples lose little of what they tell; geometry
-inline constexpr double SAMPLES = 2.0;
-/// [points] of it at least: fifteen a parameter of thirteen
-inline constexpr std::size_t FEWEST_POINTS = 195;
 /// [planes] of the outline in the first rounds; budget
 inline constexpr int FEW_PLANES = 16;
 } // namespace view_problem

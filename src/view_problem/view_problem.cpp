@@ -78,10 +78,7 @@ bool ViewProblem::prepare(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
         precision.push_back(options.precision[std::size_t(i)]);
     all_.setPrecision(precision);
   }
-  // where neighbours share their errors more points say the same again
-  const auto telling =
-      static_cast<std::size_t>(SAMPLES * observedPoints(all_, options_));
-  medium_ = subset(all_, std::clamp(telling, FEWEST_POINTS, MEDIUM_POINTS));
+  medium_ = subset(all_, MEDIUM_POINTS);
   coarse_ = subset(medium_, COARSE_POINTS);
   cost_.silhouette = toUnit(evidence.silhouette, frame_);
   cost_.tangents = toUnit(evidence.tangents, frame_);
