@@ -88,10 +88,13 @@ bool readBmp(const Bytes& bytes, ImageHeader& header) {
   return true;
 }
 
-/** \brief Numbers as text between single blanks, without comments: width, height, and a
- * scale that is not 0. OpenCV leaves a temporary file behind where it is otherwise. */
+/** \brief After a line with the mark, numbers as text between single blanks, without
+ * comments: width, height, and a scale that is not 0. OpenCV leaves a temporary file
+ * behind where it is otherwise. */
 bool readPfm(const std::string& text, ImageHeader& header) {
   std::size_t at = 2;
+  if (text.size() <= at || text[at] != '\n')
+    return false;
   const auto number = [&](auto& value) {
     if (at >= text.size() || std::isspace(static_cast<unsigned char>(text[at])) == 0)
       return false;

@@ -112,16 +112,8 @@ inline Row bentRow(const Lanes& l, const Circle& c, const Vector& y) {
   const Float step = dot(off, g) * inverse(max(dot(g, g), all(1e-30F)));
   const BentPlace foot =
       bentPlace(l, c, {y.x - step * g.x, y.y - step * g.y, y.z - step * g.z});
-  Row r;
-  r.gauge = foot.gauge;
+  Row r = deformedRow(foot, y, off, first.gauge.value);
   r.gauge.e2 = -bendingAlong(c, foot);
-  r.at = foot.at;
-  const Vector rest = {y.x - r.at.x, y.y - r.at.y, y.z - r.at.z};
-  r.residual = withSign(min(length(rest), length(off)), first.gauge.value);
-  r.factor = inverse(max(length(foot.gradient), all(1e-18F)));
-  r.spatial = {foot.gradient.x * r.factor,
-               foot.gradient.y * r.factor,
-               foot.gradient.z * r.factor};
   return r;
 }
 

@@ -205,4 +205,21 @@ inline Row footRow(const Lanes& l, const Vector& y, const Foot& foot) {
   return r;
 }
 
+/** \brief The row of a deformed body's foot, which has its own gradient.
+ * \param[in] off from the radial projection to the point \param[in] sign of the side */
+template <typename Place>
+inline Row
+deformedRow(const Place& foot, const Vector& y, const Vector& off, Float sign) {
+  Row r;
+  r.gauge = foot.gauge;
+  r.at = foot.at;
+  const Vector rest = {y.x - r.at.x, y.y - r.at.y, y.z - r.at.z};
+  r.residual = withSign(min(length(rest), length(off)), sign);
+  r.factor = inverse(max(length(foot.gradient), all(1e-18F)));
+  r.spatial = {foot.gradient.x * r.factor,
+               foot.gradient.y * r.factor,
+               foot.gradient.z * r.factor};
+  return r;
+}
+
 } // namespace

@@ -66,16 +66,8 @@ inline Row taperedRow(const Lanes& l,
                                          {y.x - step * first.gradient.x,
                                           y.y - step * first.gradient.y,
                                           y.z - step * first.gradient.z});
-  Row r;
-  r.gauge = foot.gauge;
+  Row r = deformedRow(foot, y, off, first.gauge.value);
   r.gauge.a3 -= foot.height * foot.leaning; // a3 stretches the taper too
-  r.at = foot.at;
-  const Vector rest = {y.x - r.at.x, y.y - r.at.y, y.z - r.at.z};
-  r.residual = withSign(min(length(rest), length(off)), first.gauge.value);
-  r.factor = inverse(max(length(foot.gradient), all(1e-18F)));
-  r.spatial = {foot.gradient.x * r.factor,
-               foot.gradient.y * r.factor,
-               foot.gradient.z * r.factor};
   store(rows[11] + i, -r.factor * foot.gauge.a1 * foot.height * foot.x_growth);
   store(rows[12] + i, -r.factor * foot.gauge.a2 * foot.height * foot.y_growth);
   return r;

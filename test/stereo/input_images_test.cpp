@@ -67,6 +67,25 @@ TEST(ImageFile, ReadsWhatItsHeadSaysInEveryFormat) {
   }
 }
 
+TEST(ImageFile, APfmIsThreeNumbersAndItsDataOrIsRefusedBeforeADecoderSeesIt) {
+  const std::string data(8, '\0');
+  app::ImageHeader header;
+  std::string why;
+  for (const char* head : {"Pf\n2 1\n-1.0\n", "Pf\n2 1\n1\n", "Pf\n2\n1 -1e0 "}) {
+    EXPECT_TRUE(app::readImageHeader(head + data, header, &why)) << head << why;
+    EXPECT_EQ(header.width, 2U);
+    EXPECT_EQ(app::decodeImage(head + data, "x", AS_IT_IS).size(), cv::Size(2, 1));
+  }
+  for (const char* head : {"Pf\n2 1\n",
+                           "Pf 2 1 -1\n",
+                           "Pf\n2 1\n0\n",
+                           "Pf\n2 1\nx\n",
+                           "Pf\r\n2 1\n-1\n",
+                           "Pf\n# 2 1\n2 1\n-1\n",
+                           "PF\n2 1\n-1\n"}) // three times the data
+    EXPECT_FALSE(app::readImageHeader(head + data, header, &why)) << head;
+}
+
 TEST(ImageFile, WhatIsNoImageOrCutOffOrHugeIsRefusedInOneSentence) {
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
   EXPECT_NE(refusal("{\"a\": 1}").find("is no PNG"), std::string::npos);
