@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "kernels/kernels.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_sq::detail {
 
@@ -68,6 +71,47 @@ inline Eigen::Vector3d logGaugeGradient(const LogGauge& g,
   return {shareOver(g.outer_h * g.inner_x, local.x()),
           shareOver(g.outer_h * g.inner_y, local.y()),
           shareOver(g.outer_z, local.z())};
+}
+
+/** \brief Where the surface is met along one of the axes. */
+struct AlongAxis {
+  Eigen::Vector3d at;
+  double away; ///< from the point; infinite where no axis meets it
+};
+
+/** \brief The nearest of these places of a straight body (M4).
+ * \param[in] stretch how much longer the body is along each axis, for it is tapered */
+inline AlongAxis nearestAlongAxes(const Eigen::Vector3d& straight,
+                                  const Eigen::Vector3d& semi_axes,
+                                  double epsilon1,
+                                  double epsilon2,
+                                  const Eigen::Vector3d& stretch) {
+  const Eigen::Array3d over = straight.cwiseAbs().cwiseQuotient(semi_axes).array();
+  const double q1 = 2.0 / epsilon1, q2 = 2.0 / epsilon2;
+  const double x = std::pow(over.x(), q2), y = std::pow(over.y(), q2);
+  const double z = std::pow(over.z(), q1);
+  const double section = std::pow(x + y, q1 / q2);                // of x and y in F
+  const double left = z < 1.0 ? std::pow(1.0 - z, q2 / q1) : 0.0; // for x and y there
+  // of each axis: its term in F where the surface is met along it
+  const double terms[] = {left - y, left - x, 1.0 - section};
+  const double powers[] = {1.0 / q2, 1.0 / q2, 1.0 / q1};
+  AlongAxis near{straight, std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < 3; ++k) {
+    if (!(terms[k] > 0.0))
+      continue;
+    const double height = semi_axes[k] * std::pow(terms[k], powers[k]);
+    const double away = std::abs(height - std::abs(straight[k])) * stretch[k];
+    if (away < near.away) {
+      near = {straight, away};
+      near.at[k] = std::copysign(height, straight[k]);
+    }
+  }
+  return near;
+}
+
+/** \brief Whether feet are looked for along the axes too. */
+inline bool isFlat(const Eigen::Vector3d& semi_axes) {
+  return semi_axes.maxCoeff() > double(kernels::FLAT) * semi_axes.minCoeff();
 }
 
 } // namespace pcl_sq::detail

@@ -181,8 +181,14 @@ double Superquadric::footPointDistance(const Eigen::Vector3d& point) const {
     return radial;
   // the tangent plane at the radial projection, then back onto the surface
   const Eigen::Vector3d radial_point = local * std::exp(-g.value);
-  const Eigen::Vector3d foot =
-      local - gradient * ((local - radial_point).dot(gradient) / slope2);
+  const double step = (local - radial_point).dot(gradient) / slope2;
+  Eigen::Vector3d foot = local - gradient * step;
+  if (detail::isFlat(semi_axes)) {
+    const detail::AlongAxis near = detail::nearestAlongAxes(
+        local, semi_axes, epsilon1, epsilon2, Eigen::Vector3d::Ones());
+    if (near.away < std::abs(step) * std::sqrt(slope2))
+      foot = near.at;
+  }
   if (foot.isZero(0.0))
     return radial;
   const LogGauge at_foot = detail::logGauge(foot, semi_axes, epsilon1, epsilon2);

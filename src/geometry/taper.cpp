@@ -39,7 +39,14 @@ Place footOf(const Superquadric& s, const Eigen::Vector3d& local, double& distan
   const Place place = placeOf(s, local);
   const Place first = radiallyProjected(s, place);
   const Eigen::Vector3d normal = logGradient(s, first).normalized();
-  const Eigen::Vector3d on_plane = local - normal.dot(local - first.at) * normal;
+  const double step = normal.dot(local - first.at);
+  Eigen::Vector3d on_plane = local - step * normal;
+  if (!s.isBent() && isFlat(s.semi_axes)) {
+    const AlongAxis near = nearestAlongAxes(
+        place.straight, s.semi_axes, s.epsilon1, s.epsilon2, place.growth);
+    if (near.away < std::abs(step))
+      on_plane = near.at.cwiseProduct(place.growth);
+  }
   Place second = radiallyProjected(s, placeOf(s, on_plane));
   distance = std::min((local - second.at).norm(), (local - first.at).norm());
   if (!(place.gauge.value > 0.0))

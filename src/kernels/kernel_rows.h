@@ -24,6 +24,7 @@ struct Lanes {
   Float axes[3][3], offset[3], inverse_axis[3];
   Float q1, q2; ///< 2 / epsilon
   Float r1, r2; ///< epsilon / 2
+  bool flat;    ///< whether feet are looked for along the axes
 };
 
 inline Lanes spread(const Shape& s) {
@@ -38,6 +39,12 @@ inline Lanes spread(const Shape& s) {
   l.q2 = all(2.0F / s.epsilon2);
   l.r1 = all(0.5F * s.epsilon1);
   l.r2 = all(0.5F * s.epsilon2);
+  float least = s.inverse_axis[0], most = least;
+  for (const float a : s.inverse_axis) {
+    least = a < least ? a : least;
+    most = a > most ? a : most;
+  }
+  l.flat = most > FLAT * least;
   return l;
 }
 
@@ -180,13 +187,63 @@ struct Foot {
   Float outside; ///< 1 - 1/G
 };
 
+/** \brief Where the surface is met along one of the axes. */
+struct AlongAxis {
+  Vector at;
+  Float away; ///< from the point
+};
+
+/** \brief The nearest of these places of a straight body.
+ * \param[in] x_stretch lengths along x are longer by that, for the body is tapered */
+inline AlongAxis
+nearestAlongAxes(const Lanes& l, const Vector& y, Float x_stretch, Float y_stretch) {
+  constexpr float LEAST = 1e-12F, FAR = 1e12F;
+  const auto power = [](Float logarithm, Float q) {
+    return exp(min(max(q * logarithm, all(-30.0F)), all(20.0F)));
+  };
+  const auto logOf = [](Float x) { return log(max(x, all(LEAST))); };
+  const Float lx = logOf(abs(y.x) * l.inverse_axis[0]);
+  const Float ly = logOf(abs(y.y) * l.inverse_axis[1]);
+  const Float lz = logOf(abs(y.z) * l.inverse_axis[2]);
+  const Float x = power(lx, l.q2), y_term = power(ly, l.q2), z = power(lz, l.q1);
+  const Float section = power(logOf(x + y_term), l.r2 * l.q1); // of x and y in F
+  const Float left = // for x and y at that height
+      select(z < all(1.0F), power(logOf(1.0F - z), l.r1 * l.q2), all(0.0F));
+  // height of the surface along an axis whose term has this left, and how far it is
+  const auto along = [&](Float term, Float r, int k, Float coordinate, Float& off) {
+    const Float height = power(logOf(term), r) * inverse(l.inverse_axis[k]);
+    off = select(term > all(LEAST), abs(height - abs(coordinate)), all(FAR));
+    return withSign(height, coordinate);
+  };
+  Float dx, dy, dz;
+  const Float sx = along(left - y_term, l.r2, 0, y.x, dx);
+  const Float sy = along(left - x, l.r2, 1, y.y, dy);
+  const Float sz = along(1.0F - section, l.r1, 2, y.z, dz);
+  dx = dx * x_stretch;
+  dy = dy * y_stretch;
+  const Float best = min(dx, min(dy, dz));
+  return {{select(dx <= best, sx, y.x),
+           select((dx > best) & (dy <= best), sy, y.y),
+           select((dx > best) & (dy > best), sz, y.z)},
+          best};
+}
+
+template <typename Mask>
+inline Vector choose(Mask which, const Vector& a, const Vector& b) {
+  return {select(which, a.x, b.x), select(which, a.y, b.y), select(which, a.z, b.z)};
+}
+
 inline Foot footOnPlane(const Lanes& l, const Vector& y) {
   const Gauge gauge_y = gauge(l, y);
   const Vector& g = gauge_y.gradient;
   const Float outside = 1.0F - exp(-gauge_y.value);
   // (y - y/G).n = outside * y.g / |g| and y.g = 1 (homogeneity)
   const Float step = outside * inverse(max(dot(g, g), all(1e-30F)));
-  return {{y.x - step * g.x, y.y - step * g.y, y.z - step * g.z}, outside};
+  const Vector at = {y.x - step * g.x, y.y - step * g.y, y.z - step * g.z};
+  if (!l.flat)
+    return {at, outside};
+  const AlongAxis near = nearestAlongAxes(l, y, all(1.0F), all(1.0F));
+  return {choose(near.away < abs(step) * length(g), near.at, at), outside};
 }
 
 /** \brief From the plane back onto the surface along the radius. */

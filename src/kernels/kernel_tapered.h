@@ -48,6 +48,17 @@ inline TaperedPlace taperedPlace(const Lanes& l, const Taper& t, const Vector& y
   return p;
 }
 
+/** \brief The place met along an axis if that is nearer than \a step, else \a plane. */
+inline Vector nearerAlongAxes(
+    const Lanes& l, const Taper& t, const Vector& y, const Vector& plane, Float step) {
+  const Float height = y.z * l.inverse_axis[2];
+  const Float fx = growth(t.kx, height), fy = growth(t.ky, height);
+  const AlongAxis near =
+      nearestAlongAxes(l, {y.x * inverse(fx), y.y * inverse(fy), y.z}, fx, fy);
+  const Vector at = {near.at.x * fx, near.at.y * fy, near.at.z};
+  return choose(near.away < step, at, plane);
+}
+
 /** \brief Distance to the foot point on the tangent plane at the radial projection;
  * stores the taper's two derivatives. */
 template <int R>
@@ -61,11 +72,12 @@ inline Row taperedRow(const Lanes& l,
   const Vector off = {y.x - first.at.x, y.y - first.at.y, y.z - first.at.z};
   const Float step = dot(off, first.gradient) *
                      inverse(max(dot(first.gradient, first.gradient), all(1e-30F)));
-  const TaperedPlace foot = taperedPlace(l,
-                                         t,
-                                         {y.x - step * first.gradient.x,
-                                          y.y - step * first.gradient.y,
-                                          y.z - step * first.gradient.z});
+  Vector plane = {y.x - step * first.gradient.x,
+                  y.y - step * first.gradient.y,
+                  y.z - step * first.gradient.z};
+  if (l.flat)
+    plane = nearerAlongAxes(l, t, y, plane, abs(step) * length(first.gradient));
+  const TaperedPlace foot = taperedPlace(l, t, plane);
   Row r = deformedRow(foot, y, off, first.gauge.value);
   r.gauge.a3 -= foot.height * foot.leaning; // a3 stretches the taper too
   store(rows[11] + i, -r.factor * foot.gauge.a1 * foot.height * foot.x_growth);

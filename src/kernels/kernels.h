@@ -38,6 +38,11 @@ struct Shape {
   float kx, ky; ///< the taper; only the loops for tapered bodies read it
 };
 
+/** \brief Longest over shortest semi-axis from which feet are also looked for along the
+ * axes. The gauge takes a point near the edge of a flat box for one of the narrow side,
+ * that ratio too far away: up to three, a point one sigma off stays within three. */
+constexpr float FLAT = 3.0F;
+
 enum class Residual {
   RADIAL,      ///< |y| (1 - 1/G): the widest basin (Gross & Boult 1988)
   FIRST_ORDER, ///< (1 - 1/G) / |grad ln G| (Taubin 1991)

@@ -13,6 +13,7 @@ namespace pcl_sq::detail {
 namespace {
 
 using namespace tuning::fit_piece;
+using tuning::odds::THIN_SIGMA;
 
 /** \brief Heights above the table of points, of all but a few. */
 struct Heights {
@@ -48,6 +49,16 @@ double halfSeen(const PieceContext& context,
   }
   const Eigen::Vector2d focal(o.camera.fx, o.camera.fy);
   return std::max(of_points, 0.5 * o.depth * (high - low).cwiseQuotient(focal).norm());
+}
+
+/** \brief -2 ln of how rarely things are so thin (M17): next to nothing beside what
+ * shows a thickness, but two faces that are seen are hardly two sheets. */
+double priceOfThinness(const Superquadric& body) {
+  if (body.isCut())
+    return 0.0; // its wall has a price of its own
+  Eigen::Vector3d a = body.semi_axes;
+  std::sort(a.data(), a.data() + 3);
+  return std::pow(std::log(a[0] / a[1]) / THIN_SIGMA, 2);
 }
 
 /** \brief Whether a piece reaches the table: its lowest points are on it, or, where
@@ -115,7 +126,9 @@ void fitPiece(const PieceContext& context,
       evidence.limits.end(), context.limits.begin(), context.limits.end());
   const double price = std::log(1.0 + o.effective_points); // of a parameter
   const FreeSpaceCost free_space(context, piece);
-  const auto against = [&](const Superquadric& body) { return free_space(body); };
+  const auto against = [&](const Superquadric& body) {
+    return free_space(body) + priceOfThinness(body);
+  };
   const auto assess = [&](ViewFit fit, double hinges) {
     Piece assessed;
     assessed.fit = std::move(fit);

@@ -41,6 +41,9 @@ inline constexpr double BENT = 20.0;
 inline constexpr double VESSEL = 10.0;
 /// [log] deviation of depth over width of what one view shows; household things
 inline constexpr double DEPTH_SIGMA = 0.4;
+/// [log] deviation of a part's least size over its middle one: cans 0, cartons -1,
+/// books and plates -2; household things
+inline constexpr double THIN_SIGMA = 1.0;
 } // namespace odds
 
 namespace view_problem {

@@ -277,8 +277,10 @@ TEST(FitObject, CanAndBottleTakeNoTaper) {
     for (const Superquadric& part : fit.model.parts)
       EXPECT_FALSE(part.isTapered());
     ASSERT_EQ(fit.model.size(), plain.model.size());
-    EXPECT_EQ(fit.model.parts[0].toCoefficients(),
-              plain.model.parts[0].toCoefficients());
+    const auto with = fit.model.parts[0].toCoefficients();
+    const auto without = plain.model.parts[0].toCoefficients();
+    for (std::size_t k = 0; k < with.size(); ++k) // another way to the same optimum
+      EXPECT_NEAR(with[k], without[k], 1e-5);
   }
 }
 
