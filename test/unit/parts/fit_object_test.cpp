@@ -272,15 +272,16 @@ TEST(FitObject, CanAndBottleTakeNoTaper) {
   ViewScene can;
   can.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
   can.render(0.001);
-  for (const ViewScene& scene : {can, bottleScene()}) {
+  // a can to the bit, a bottle's two parts may come another way to the same optimum
+  for (const auto& [scene, within] :
+       {std::pair(can, 0.0), std::pair(bottleScene(), 1e-5)}) {
     const ObjectFit fit = fitScene(scene), plain = fitScene(scene, straight);
     for (const Superquadric& part : fit.model.parts)
       EXPECT_FALSE(part.isTapered());
     ASSERT_EQ(fit.model.size(), plain.model.size());
-    // another way to the same optimum
     const SuperquadricCoefficients apart =
         fit.model.parts[0].toCoefficients() - plain.model.parts[0].toCoefficients();
-    EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LE(apart.cwiseAbs().maxCoeff(), within);
   }
 }
 
