@@ -10,17 +10,23 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr double SQRT_TWO_PI = 2.5066282746310002;
+constexpr double FOUR_PI = 12.566370614359172; ///< the Gaussian curvature of any body
 constexpr double MIN_OUTLIER_SHARE = 1e-3; ///< so that a point can always become one
 
 } // namespace
 
+double Mixture::filledArea(double area) const {
+  return area + FOUR_PI * sigma * sigma;
+}
+
 double Mixture::outlier(double area) const {
-  return outlier_share / (1.0 - outlier_share) * area / volume * SQRT_TWO_PI * sigma;
+  return outlier_share / (1.0 - outlier_share) * filledArea(area) / volume *
+         SQRT_TWO_PI * sigma;
 }
 
 double
 Mixture::negativeLogLikelihood(double cost, std::size_t count, double area) const {
-  const double peak = (1.0 - outlier_share) / (area * SQRT_TWO_PI * sigma);
+  const double peak = (1.0 - outlier_share) / (filledArea(area) * SQRT_TWO_PI * sigma);
   return 0.5 * cost / (sigma * sigma * double(count)) -
          std::log(peak * (1.0 + outlier(area)));
 }
@@ -49,14 +55,17 @@ double surfaceArea(const Superquadric& m) {
 
 Contributor sizePrior(double sigma, double inliers) {
   const double weight = 0.5 * sigma * sigma * inliers;
-  return [weight](const Superquadric& m, NormalEquations& e) {
-    const LogArea area = logArea(m.semi_axes, m.epsilon1, m.epsilon2);
-    e.cost += 2.0 * weight * area.value;
-    e.jtr.tail<5>() += weight * area.gradient;
+  Mixture mixture;
+  mixture.sigma = sigma;
+  return [weight, mixture](const Superquadric& m, NormalEquations& e) {
+    const LogArea own = logArea(m.semi_axes, m.epsilon1, m.epsilon2);
+    const double area = std::exp(own.value), filled = mixture.filledArea(area);
+    const Eigen::Matrix<double, 5, 1> gradient = area / filled * own.gradient;
+    e.cost += 2.0 * weight * std::log(filled);
+    e.jtr.tail<5>() += weight * gradient;
     // curvature of a quadratic that is flat by one unit of ln A: keeps steps finite
     // where the points say nothing
-    e.jtj.bottomRightCorner<5, 5>() +=
-        weight * area.gradient * area.gradient.transpose();
+    e.jtj.bottomRightCorner<5, 5>() += weight * gradient * gradient.transpose();
   };
 }
 

@@ -14,6 +14,10 @@ struct Mixture {
   double outlier_share = 0.1; ///< of the points
   double volume = 1.0;        ///< of the cloud's region
 
+  /** \brief An area times the Gaussian's width is the volume that its points fill: the
+   * body's own and 4 pi sigma^2, for areas grow away from a convex surface (Steiner
+   * 1840). Without it a body far smaller than the noise would explain any cloud. */
+  double filledArea(double area) const;
   /** \brief The kernels' c: density of the outliers over the peak of the Gaussian's,
    * for a surface of this area. */
   double outlier(double area) const;
@@ -42,13 +46,13 @@ double surfaceArea(const Superquadric& model);
 
 /** \brief Preference for the smaller surface as a cost in squared lengths.
  *
- * Points uniform on a surface of area A have the density 1/A, which adds N ln A to the
- * negative log-likelihood. Noise across a curved surface pushes points outwards, which
- * takes half of it back (exactly so for a sphere): N/2 ln A remains. Times 2 sigma^2,
- * to be a cost, it vanishes with the noise and shifts a well-seen axis a by no more
- * than about sigma^2 / a, the noise's own bias, with the opposite sign; it decides only
- * in directions that the points leave open.
- * \param[in] inliers their expected number */
+ * Points uniform around a surface have the density 1/A of what they fill, A =
+ * filledArea(), which adds N ln A to the negative log-likelihood. Noise across a curved
+ * surface pushes points outwards, which takes half of it back (exactly so for a
+ * sphere): N/2 ln A remains. Times 2 sigma^2, to be a cost, it vanishes with the noise
+ * and shifts a well-seen axis a by no more than about sigma^2 / a, the noise's own
+ * bias, with the opposite sign; it decides only in directions that the points leave
+ * open. \param[in] inliers their expected number */
 Contributor sizePrior(double sigma, double inliers);
 
 } // namespace pcl_sq::detail
