@@ -93,31 +93,34 @@ std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
     t.model.rotation.col(1) *= -1.0;
   }
   const ParameterSpace space = standing(spaceOf(ShapeClass::ROTATIONAL), 2);
-  Lid lid;
+  // The body that they belong to ends at the lid: in the first round the rim's outline
+  // and the wall tell where it ends, without them. Which points are the lid's follows
+  // from the body, so that the cost may rise again: the best round counts.
+  std::optional<Trial> tin;
   for (int i = 0; i < ROUNDS; ++i) {
-    lid = lidOf(problem.medium(), t.model, sigma);
+    const Lid lid = lidOf(problem.medium(), t.model, sigma);
     if (lid.points.empty())
-      return std::nullopt;
-    // the body that they belong to ends at the lid; without them the rim's outline and
-    // the wall tell where it ends
+      break;
     std::optional<Eigen::Vector3d> lift;
     if (i > 0)
       lift = lid.depth * problem.up();
     t = problem.minimise(t,
                          lifted(problem.medium(), lid, lift),
                          kernels::Residual::FOOT_POINT,
-                         ITERATIONS,
+                         tuning::fit_lid::ITERATIONS,
                          space);
-    if (!(t.cost < best->bic)) // nor does it become the best
-      return std::nullopt;
+    // a rim is an edge
+    const bool is_tin = lift && lid.depth > 0.0 && t.model.epsilon1 <= EDGE;
+    if (is_tin && (!tin || t.cost < tin->cost))
+      tin = t;
   }
+  if (!tin)
+    return std::nullopt;
   ShapeCandidate c = *round;
-  c.model = t.model;
-  c.cost = t.cost;
+  c.model = tin->model;
+  c.cost = tin->cost;
   c.parameters = static_cast<int>(space.basis.cols()) + 1;
   c.bic = c.cost + c.parameters * std::log(problem.observations());
-  if (!(lid.depth > 0.0) || !(c.bic < best->bic))
-    return std::nullopt;
   return c;
 }
 

@@ -197,6 +197,8 @@ inline constexpr double DEEPEST = 0.25;
 inline constexpr double WITHIN = 0.85;
 /// [1] of the points, that are a lid: fewer may be a mug's inside; chosen
 inline constexpr double LEAST = 0.05;
+/// [1] largest e1 of a rim, which is an edge; a box's
+inline constexpr double EDGE = 0.2;
 /// [rounds] of lid and body in turn; budget
 inline constexpr int ROUNDS = 3;
 /// [steps] of a fit; budget
