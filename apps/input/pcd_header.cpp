@@ -11,7 +11,7 @@ namespace pcl_sq::app {
 
 namespace {
 
-std::optional<Scalar> scalarOf(std::string_view type, std::uint64_t size) {
+std::optional<Scalar> pcdScalar(std::string_view type, std::uint64_t size) {
   const Scalar signed_types[] = {Scalar::I8, Scalar::I16, Scalar::I32, Scalar::I64};
   const Scalar unsigned_types[] = {Scalar::U8, Scalar::U16, Scalar::U32, Scalar::U64};
   if (type == "F" && size == 8)
@@ -127,7 +127,7 @@ private:
       field.name = std::string(names_[k]);
       const std::uint64_t size = sizes_.empty() ? 4 : sizes_[k];
       const std::string_view type = types_.empty() ? "F" : types_[k];
-      const auto scalar = scalarOf(type, size);
+      const auto scalar = pcdScalar(type, size);
       if (!scalar)
         throw Failure("its field " + quoted(names_[k]) + " has TYPE " + quoted(type) +
                       " SIZE " + std::to_string(size) + ", which is no number");

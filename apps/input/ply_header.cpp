@@ -10,7 +10,7 @@ namespace pcl_sq::app {
 
 namespace {
 
-Scalar scalarOf(std::string_view name, std::size_t line) {
+Scalar plyScalar(std::string_view name, std::size_t line) {
   const struct {
     const char *old_name, *new_name;
     Scalar type;
@@ -60,10 +60,10 @@ void readProperty(std::string_view words, std::size_t line, PlyHeader& header) {
   PlyProperty property;
   std::string_view type = takeWord(words);
   if (type == "list") {
-    property.count_type = scalarOf(takeWord(words), line);
+    property.count_type = plyScalar(takeWord(words), line);
     type = takeWord(words);
   }
-  property.type = scalarOf(type, line);
+  property.type = plyScalar(type, line);
   property.name = std::string(takeWord(words));
   if (property.name.empty())
     failInLine(line, "the property has no name");

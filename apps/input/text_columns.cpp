@@ -9,7 +9,7 @@ namespace pcl_sq::app {
 
 namespace {
 
-bool isBlank(char c) {
+bool isSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
@@ -18,9 +18,9 @@ bool isDigit(char c) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (isBlank(text.front()) || text.front() == '"'))
+  while (!text.empty() && (isSpace(text.front()) || text.front() == '"'))
     text.remove_prefix(1);
-  while (!text.empty() && (isBlank(text.back()) || text.back() == '"'))
+  while (!text.empty() && (isSpace(text.back()) || text.back() == '"'))
     text.remove_suffix(1);
   return text;
 }
@@ -28,7 +28,7 @@ std::string_view trimmed(std::string_view text) {
 /** \brief Names of a header's line; only one separator there, for "X [m]" is one name.
  */
 std::vector<std::string> splitNames(std::string_view line) {
-  while (!line.empty() && (isBlank(line.front()) || line.front() == '#' ||
+  while (!line.empty() && (isSpace(line.front()) || line.front() == '#' ||
                            line.front() == '/' || line.front() == '%'))
     line.remove_prefix(1);
   std::vector<std::string> names;
@@ -52,7 +52,7 @@ std::vector<std::string> splitNames(std::string_view line) {
 bool meansAxis(std::string name, std::size_t axis) {
   const char letter = static_cast<char>('x' + axis);
   name = name.substr(0, name.find_first_of("[("));
-  while (!name.empty() && isBlank(name.back()))
+  while (!name.empty() && isSpace(name.back()))
     name.pop_back();
   if (name == std::string(1, letter) || name == "points:" + std::to_string(axis))
     return true;
@@ -83,12 +83,12 @@ void splitCells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   std::size_t at = 0;
   const auto skipBlanks = [&] {
-    while (at < line.size() && isBlank(line[at]))
+    while (at < line.size() && isSpace(line[at]))
       ++at;
   };
   for (skipBlanks(); at < line.size(); skipBlanks()) {
     const std::size_t begin = at;
-    while (at < line.size() && !isBlank(line[at]) && line[at] != ',' && line[at] != ';')
+    while (at < line.size() && !isSpace(line[at]) && line[at] != ',' && line[at] != ';')
       ++at;
     std::string_view cell = line.substr(begin, at - begin);
     if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
@@ -132,7 +132,7 @@ std::optional<TextColumns> readColumnNames(std::string_view line) {
 }
 
 bool hasDecimalCommas(std::string_view line) {
-  while (!line.empty() && (isBlank(line.back()) || line.back() == ';'))
+  while (!line.empty() && (isSpace(line.back()) || line.back() == ';'))
     line.remove_suffix(1); // as lists of numbers in code end
   const bool semicolons = line.find(';') != std::string_view::npos;
   if (line.find(',') == std::string_view::npos ||

@@ -116,10 +116,10 @@ void addFork(const Grasp& grasp, const Gripper& gripper, Eigen::Matrix3Xd& lines
   }
 }
 
-void writeSnapshot(const MultiSuperquadric& model,
-                   const GraspPlan& plan,
-                   const GraspScene& scene,
-                   const GraspOptions& options) {
+void writeGraspPicture(const MultiSuperquadric& model,
+                       const GraspPlan& plan,
+                       const GraspScene& scene,
+                       const GraspOptions& options) {
   SnapshotOptions settings;
   if (scene.has_table)
     settings.up = scene.table_normal;
@@ -255,7 +255,8 @@ void writeGraspOutputs(const MultiSuperquadric& model,
 #ifdef PCL_SQ_HAVE_VISUALIZATION
   const Eigen::Vector3d near = -offsetOf(model);
   if (!options.snapshot.empty())
-    writeSnapshot(moved(model, near), moved(plan, near), moved(scene, near), options);
+    writeGraspPicture(
+        moved(model, near), moved(plan, near), moved(scene, near), options);
 #endif
 }
 

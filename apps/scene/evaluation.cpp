@@ -3,7 +3,7 @@
 
 #include "scene/noise.h"
 
-#include <omp.h>
+#include "util/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,6 @@ namespace pcl_sq::app {
 namespace {
 
 constexpr double DEGREES = 180.0 / 3.14159265358979323846;
-
-int threadCount(unsigned int threads) {
-  return threads == 0 ? omp_get_max_threads() : static_cast<int>(threads);
-}
 
 /** \brief Distances of points, in parallel; summed in order, so repeatable. */
 template <typename Distance>
@@ -209,7 +205,7 @@ ShapeFigures evaluateShape(const MultiSuperquadric& model,
         return a.volume() < b.volume();
       });
   figures.axis_error_deg = axisError(largest->rotation, shape.rotation, shape.symmetry);
-  const int count = threadCount(threads);
+  const int count = detail::threadCount(threads);
   measureVolumes(model, mesh, shape, samples, count, figures);
   figures.model_to_truth = measure(sampleUnion(model, samples), count, [&](auto& p) {
     return mesh.distance(shape.rotation.transpose() * (p - shape.translation));
@@ -231,8 +227,9 @@ CloudFigures evaluateCloud(const MultiSuperquadric& model,
   list.reserve(figures.points);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     list.push_back(points.col(i));
-  figures.distance = measure(
-      list, threadCount(threads), [&](auto& p) { return model.euclideanDistance(p); });
+  figures.distance = measure(list, detail::threadCount(threads), [&](auto& p) {
+    return model.euclideanDistance(p);
+  });
   return figures;
 }
 

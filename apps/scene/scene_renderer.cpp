@@ -3,7 +3,7 @@
 
 #include "scene/noise.h"
 
-#include <omp.h>
+#include "util/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,10 +128,6 @@ std::uint8_t quantise(double linear, double noise) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0)));
 }
 
-int threadCount(unsigned int threads) {
-  return threads == 0 ? omp_get_max_threads() : static_cast<int>(threads);
-}
-
 } // namespace
 
 Scene placeOnTable(const Eigen::AlignedBox3d& box,
@@ -163,7 +159,7 @@ RenderedImage render(const Scene& scene,
   image.height = camera.height;
   image.bgr.resize(3 * static_cast<std::size_t>(camera.width) *
                    static_cast<std::size_t>(camera.height));
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
+#pragma omp parallel for schedule(dynamic, 4) num_threads(detail::threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const auto pixel = static_cast<std::uint64_t>(v) * camera.width + u;
@@ -201,7 +197,7 @@ RenderedTruth renderTruth(const Scene& scene,
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   truth.depth.resize(count);
   truth.mask.resize(count);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
+#pragma omp parallel for schedule(dynamic, 4) num_threads(detail::threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const auto pixel =

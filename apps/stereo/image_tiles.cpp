@@ -11,7 +11,7 @@
 namespace pcl_sq::app {
 namespace {
 
-const cv::Scalar PAPER(248, 246, 244), OWN(70, 175, 40), FOREIGN(50, 50, 225),
+const cv::Scalar TILE_PAPER(248, 246, 244), OWN(70, 175, 40), FOREIGN(50, 50, 225),
     TANGENT(225, 140, 40), MASK(40, 40, 230), BOX(40, 200, 240);
 
 /** \brief A window of the image, enlarged to a tile. */
@@ -39,7 +39,7 @@ struct Window {
               (tile.height - static_cast<int>(scale * source.height)) / 2};
   }
   cv::Mat cut(const cv::Mat& image, const cv::Size& tile) const {
-    cv::Mat scaled, result(tile, CV_8UC3, PAPER);
+    cv::Mat scaled, result(tile, CV_8UC3, TILE_PAPER);
     const cv::Size size(static_cast<int>(scale * source.width),
                         static_cast<int>(scale * source.height));
     cv::resize(image(source),

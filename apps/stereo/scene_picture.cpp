@@ -15,8 +15,8 @@ namespace pcl_sq::app {
 namespace {
 
 constexpr double OPACITY = 0.45;
-constexpr int DIVISIONS = 32;              ///< of a part's mesh
-constexpr double TURN = 0.55, TILT = 0.35; ///< of the view in space [rad]
+constexpr int DIVISIONS = 32;                        ///< of a part's mesh
+constexpr double VIEW_TURN = 0.55, VIEW_TILT = 0.35; ///< of the view in space [rad]
 
 /** \brief The cloud's colours as its image; where it has none, what is near is dark. */
 cv::Mat imageOf(const LoadedCloud& input) {
@@ -101,7 +101,7 @@ cv::Mat inSpace(const LoadedCloud& input,
   RoiBox focus;
   focus.min = box.min() - margin;
   focus.max = box.max() + margin;
-  ViewCanvas canvas(size, focus, TURN, TILT);
+  ViewCanvas canvas(size, focus, VIEW_TURN, VIEW_TILT);
   std::vector<Eigen::Vector3d> points;
   std::vector<cv::Vec3b> colors;
   const cv::Mat image = imageOf(input);

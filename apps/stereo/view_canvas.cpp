@@ -16,7 +16,7 @@ namespace pcl_sq::app {
 namespace {
 
 constexpr float FAR = std::numeric_limits<float>::infinity();
-const cv::Vec3b PAPER(248, 246, 244);
+const cv::Vec3b CANVAS_PAPER(248, 246, 244);
 const cv::Vec3b TINTS[] = {{60, 110, 235},
                            {200, 140, 50},
                            {90, 170, 60},
@@ -48,7 +48,7 @@ ViewCanvas::ViewCanvas(const cv::Size& size,
                        const RoiBox& focus,
                        double turn,
                        double tilt)
-    : picture_(size, CV_8UC3, cv::Scalar(PAPER)), depth_(size, CV_32F, FAR) {
+    : picture_(size, CV_8UC3, cv::Scalar(CANVAS_PAPER)), depth_(size, CV_32F, FAR) {
   const Eigen::Matrix3d to_camera = (Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()) *
                                      Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()))
                                         .toRotationMatrix();
@@ -178,7 +178,7 @@ void ViewCanvas::addModel(const MultiSuperquadric& model,
     std::vector<int> hidden;
     for (const Eigen::Vector3d& v : mesh.vertices)
       hidden.push_back(isHidden(model, v, eye, slack) ? 1 : 0);
-    const cv::Vec3b color = partTint(k), pale = mixed(color, PAPER, 0.62);
+    const cv::Vec3b color = partTint(k), pale = mixed(color, CANVAS_PAPER, 0.62);
     drawMesh(
         mesh,
         [&](const std::array<std::uint32_t, 3>& t) {
@@ -210,7 +210,7 @@ void ViewCanvas::addOutlines(const MultiSuperquadric& model) {
       cv::line(picture_,
                pixels[a],
                pixels[b],
-               hidden ? mixed(color, PAPER, 0.55) : color,
+               hidden ? mixed(color, CANVAS_PAPER, 0.55) : color,
                hidden ? 1 : 2,
                cv::LINE_AA);
     }

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary glTF 2.0 (Khronos): a header, a chunk of JSON, a chunk of numbers.
 #include "export/part_surface.h"
+#include "io/json_text.h"
 
 #include "pcl_sq/palette.h"
 #include "pcl_sq/robot_export.h"
 #include "pcl_sq/sides.h"
 
-#include <nlohmann/json.hpp>
-
 namespace pcl_sq {
+
+using detail::Json;
+using detail::vectorToJson;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 enum GlNumbers { FLOAT = 5126, UNSIGNED_INT = 5125, VERTICES = 34962, INDICES = 34963 };
-
-Json list(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 /** \brief The buffer of numbers with the JSON that describes it. */
 struct Buffer {
@@ -50,8 +46,8 @@ struct Buffer {
     Json accessor = {
         {"componentType", FLOAT}, {"count", vectors.size()}, {"type", "VEC3"}};
     if (bounds) {
-      accessor["min"] = list(low.cast<double>());
-      accessor["max"] = list(high.cast<double>());
+      accessor["min"] = vectorToJson(low.cast<double>());
+      accessor["max"] = vectorToJson(high.cast<double>());
     }
     return add(numbers, VERTICES, accessor);
   }
@@ -110,11 +106,11 @@ std::vector<TextFile> glbOf(const ModelFile& file,
                          {"material", i}}}}});
     nodes.push_back({{"name", name},
                      {"mesh", i},
-                     {"translation", list(part.center)},
+                     {"translation", vectorToJson(part.center)},
                      {"extras",
-                      {{"semi_axes", list(part.semi_axes)},
+                      {{"semi_axes", vectorToJson(part.semi_axes)},
                        {"epsilon", {part.epsilon1, part.epsilon2}},
-                       {"sides", list(sidesOf(part))}}}});
+                       {"sides", vectorToJson(sidesOf(part))}}}});
     children.push_back(i + 1);
   }
   const Eigen::Vector3d up =

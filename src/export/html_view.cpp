@@ -3,18 +3,18 @@
 #include "export/part_surface.h"
 #include "export/view_page.h"
 #include "export/xml_text.h"
+#include "io/json_text.h"
 
 #include "pcl_sq/html_view.h"
 #include "pcl_sq/palette.h"
 #include "pcl_sq/sides.h"
 
-#include <nlohmann/json.hpp>
-
 namespace pcl_sq {
 
-namespace {
+using detail::Json;
+using detail::vectorToJson;
 
-using Json = nlohmann::ordered_json;
+namespace {
 
 std::string base64(const std::string& bytes) {
   static const char* const DIGITS =
@@ -37,10 +37,6 @@ std::string base64(const std::vector<T>& numbers) {
                             numbers.size() * sizeof(T)));
 }
 
-Json list(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /** \brief Places in 16 bits of a box: enough for 15 micrometres of a metre. */
 struct Grid {
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), step = Eigen::Vector3d::Ones();
@@ -56,7 +52,9 @@ struct Grid {
     for (const double cell : q)
       cells.push_back(static_cast<std::uint16_t>(std::clamp(cell, 0.0, 65535.0)));
   }
-  Json json() const { return {{"low", list(low)}, {"step", list(step)}}; }
+  Json json() const {
+    return {{"low", vectorToJson(low)}, {"step", detail::vectorToJson(step)}};
+  }
 };
 
 /** \brief The part's surface about the middle of all. */
@@ -80,7 +78,7 @@ Json partJson(const Superquadric& part,
   moved.low -= middle;
   return {{"name", label.name},
           {"color", {color.r, color.g, color.b}},
-          {"sides", list(sidesOf(part))},
+          {"sides", vectorToJson(sidesOf(part))},
           {"epsilon", {part.epsilon1, part.epsilon2}},
           {"taper", {part.kx, part.ky}},
           {"wall", part.wall},
@@ -197,7 +195,7 @@ std::string pageOf(const ModelFile& file,
   if (file.table) {
     const auto& t = *file.table;
     up = Eigen::Vector3d(t[0], t[1], t[2]);
-    page["table"] = {{"normal", list(up)}, {"height", -t[3] - up.dot(middle)}};
+    page["table"] = {{"normal", vectorToJson(up)}, {"height", -t[3] - up.dot(middle)}};
   }
   const auto report = extra.find("report");
   if (report != extra.end() && report->is_object()) {
@@ -213,7 +211,7 @@ std::string pageOf(const ModelFile& file,
     };
     Eigen::Vector3d sensor;
     if (vector("sensor", sensor))
-      page["camera"] = list(sensor - middle);
+      page["camera"] = vectorToJson(sensor - middle);
     Eigen::Vector3d told;
     if (!file.table && vector("up", told) && told.norm() > 1e-9)
       up = told.normalized();

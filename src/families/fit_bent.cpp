@@ -45,7 +45,7 @@ Rod fitRod(const BentProblem& problem, const Rod& start, int iterations) {
   return rod;
 }
 
-ShapeCandidate candidateOf(const Rod& rod, const ViewProblem& problem) {
+ShapeCandidate rodCandidate(const Rod& rod, const ViewProblem& problem) {
   ShapeCandidate c;
   c.shape = ShapeClass::BENT;
   c.before = rod.round ? ShapeClass::ROTATIONAL : ShapeClass::GENERIC;
@@ -119,7 +119,7 @@ Superquadric trimmed(const UnitPoints& points, const Superquadric& s) {
   return t;
 }
 
-bool cheaper(const Rod& a, const Rod& b) {
+bool cheaperRod(const Rod& a, const Rod& b) {
   return a.cost < b.cost;
 }
 
@@ -154,13 +154,13 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
       start.thick = !is_handle;
       found.push_back(fitRod(rough, start, FIRST_ITERATIONS));
     }
-  std::sort(found.begin(), found.end(), cheaper);
+  std::sort(found.begin(), found.end(), cheaperRod);
   found.resize(std::min(found.size(), PROMISING));
   for (Rod& rod : found)
     rod = fitRod(rough, rod, SEARCH_ITERATIONS - FIRST_ITERATIONS);
-  std::sort(found.begin(), found.end(), cheaper);
+  std::sort(found.begin(), found.end(), cheaperRod);
   // from all round the rough fits tell more of a rod than from one side
-  found.resize(std::min(found.size(), problem.eye() ? KEPT : 1));
+  found.resize(std::min(found.size(), problem.eye() ? tuning::fit_bent::KEPT : 1));
   // of what is not bent, a bottle for instance, no arc is nearer to the points
   if (found.empty() ||
       (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) <
@@ -169,13 +169,13 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   const BentProblem thorough(problem, problem.medium(), sigma);
   std::optional<ShapeCandidate> chosen;
   const auto take = [&](const Rod& start) {
-    Rod rod = fitRod(thorough, start, ITERATIONS);
+    Rod rod = fitRod(thorough, start, tuning::fit_bent::ITERATIONS);
     if (is_handle && rod.cost < 1e299) {
       Rod shorter = rod;
       shorter.model = trimmed(problem.medium(), rod.model);
       rod = fitRod(thorough, shorter, 0);
     }
-    const ShapeCandidate c = candidateOf(rod, problem);
+    const ShapeCandidate c = rodCandidate(rod, problem);
     if (rod.cost < 1e299 && isRod(rod.model) &&
         isSeenAlong(problem.medium(), rod.model) && (!chosen || c.bic < chosen->bic))
       chosen = c;
@@ -186,7 +186,7 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   if (is_handle)
     return chosen;
   // flat or lying down, from the better one
-  Rod rod = *std::min_element(found.begin(), found.end(), cheaper);
+  Rod rod = *std::min_element(found.begin(), found.end(), cheaperRod);
   rod.round = false;
   rod = take(rod);
   if (!problem.hasUp() ||
@@ -208,9 +208,10 @@ void fitBentAgain(const ViewProblem& problem,
                   ShapeCandidate& chosen) {
   const Rod start{
       chosen.model, 0.0, chosen.before == ShapeClass::ROTATIONAL, chosen.upright};
-  const Rod rod = fitRod(BentProblem(problem, points, sigma),
-                         start,
-                         problem.eye() ? ITERATIONS : ALL_ROUND_ITERATIONS);
+  const Rod rod =
+      fitRod(BentProblem(problem, points, sigma),
+             start,
+             problem.eye() ? tuning::fit_bent::ITERATIONS : ALL_ROUND_ITERATIONS);
   if (!(rod.cost < 1e299))
     return;
   chosen.bic += rod.cost - chosen.cost;

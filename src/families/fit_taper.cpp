@@ -61,7 +61,7 @@ public:
   TaperedFamily(const ViewProblem& problem,
                 const UnitPoints& points,
                 double sigma,
-                int iterations = ITERATIONS)
+                int iterations = tuning::fit_taper::ITERATIONS)
       : problem_(problem), points_(points), limits_(problem.limits(sigma)),
         unit_(problem.unitOf(sigma, points)), planes_(problem.planes(sigma, points)),
         contributor_(std::cref(planes_)) {
@@ -161,7 +161,7 @@ std::vector<ShapeCandidate> searchTapers(const ViewProblem& problem) {
       candidates.begin(),
       candidates.end(),
       [](const ShapeCandidate& a, const ShapeCandidate& b) { return a.bic < b.bic; });
-  candidates.resize(std::min(candidates.size(), KEPT));
+  candidates.resize(std::min(candidates.size(), tuning::fit_taper::KEPT));
   return candidates;
 }
 

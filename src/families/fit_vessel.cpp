@@ -48,7 +48,7 @@ private:
   VesselProblem least_squares_;
 };
 
-ShapeCandidate candidateOf(const Vessel& v, const ViewProblem& problem) {
+ShapeCandidate vesselCandidate(const Vessel& v, const ViewProblem& problem) {
   ShapeCandidate c;
   c.shape = ShapeClass::VESSEL;
   c.before = ShapeClass::ROTATIONAL;
@@ -161,11 +161,13 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
   const UnitPoints& points = problem.medium();
   // most vessels are none to within the noise: foot and rim are thicker than the wall
   double own = std::max(sigma, WIDE);
-  vessel = VesselFamily(problem, points, 2.0 * own).fit(vessel, ITERATIONS);
+  vessel = VesselFamily(problem, points, 2.0 * own)
+               .fit(vessel, tuning::fit_vessel::ITERATIONS);
   for (int round = 0; round < ROUNDS; ++round) {
     lowerRim(points, vessel.model);
     own = std::min(own, scatterOf(points, own, vessel.model));
-    vessel = VesselFamily(problem, points, own).fit(vessel, ITERATIONS);
+    vessel =
+        VesselFamily(problem, points, own).fit(vessel, tuning::fit_vessel::ITERATIONS);
   }
   const double inside = VesselFamily(problem, points, own).insideShare(vessel.model);
   if (!(vessel.cost < 1e299) || std::min(inside, 1.0 - inside) < BOTH_SIDES ||
@@ -180,13 +182,13 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
           std::log(scatterOf(points, std::max(sigma, vessel.model.wall), solid.model) /
                    own) +
       problem.observations() - vessel.cost;
-  ShapeCandidate c = candidateOf(vessel, problem);
+  ShapeCandidate c = vesselCandidate(vessel, problem);
   c.bic += solid.cost - gain - c.cost;
   c.cost = std::min(problem.observations(), solid.cost);
   return c;
 }
 
-bool cheaper(const Vessel& a, const Vessel& b) {
+bool cheaperVessel(const Vessel& a, const Vessel& b) {
   return a.cost < b.cost;
 }
 
@@ -247,11 +249,11 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
   for (const Eigen::Vector3d& axis : axes)
     for (const Superquadric& start : vesselStarts(problem, axis))
       found.push_back(rough.fit({start, 0.0, problem.hasUp()}, 0));
-  std::sort(found.begin(), found.end(), cheaper);
+  std::sort(found.begin(), found.end(), cheaperVessel);
   found.resize(std::min(found.size(), ROUGH));
   for (Vessel& v : found)
     v = rough.fit(v, SEARCH_ITERATIONS);
-  std::sort(found.begin(), found.end(), cheaper);
+  std::sort(found.begin(), found.end(), cheaperVessel);
   const VesselFamily thorough(problem, problem.medium(), sigma);
   if (!problem.eye()) { // only the noise that each leaves tells them apart
     const double wide = std::max(WIDE, 2.0 * problem.noise());
@@ -265,18 +267,21 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
       if (!(cost(v.model) < most))
         continue; // a solid is nearer to the points
       else if (const auto c =
-                   fromAllRound(problem, sigma, thorough.fit(v, ITERATIONS), *best))
+                   fromAllRound(problem,
+                                sigma,
+                                thorough.fit(v, tuning::fit_vessel::ITERATIONS),
+                                *best))
         if (!chosen || c->bic < chosen->bic)
           chosen = c;
     return chosen;
   }
-  found.resize(std::min(found.size(), KEPT));
+  found.resize(std::min(found.size(), tuning::fit_vessel::KEPT));
   for (Vessel& v : found)
-    v = thorough.fit(v, ITERATIONS);
-  const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaper);
+    v = thorough.fit(v, tuning::fit_vessel::ITERATIONS);
+  const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaperVessel);
   if (!(vessel.cost < 1e299))
     return std::nullopt;
-  const ShapeCandidate c = candidateOf(vessel, problem);
+  const ShapeCandidate c = vesselCandidate(vessel, problem);
   if (!beatsSolids(problem, sigma, c, candidates))
     return std::nullopt;
   return c;
@@ -288,8 +293,9 @@ void fitVesselAgain(const ViewProblem& problem,
                     ShapeCandidate& chosen) {
   if (!problem.eye())
     sigma = std::min(sigma, scatterOf(points, sigma, chosen.model));
-  const Vessel fitted = VesselFamily(problem, points, sigma)
-                            .fit({chosen.model, 0.0, chosen.upright}, ITERATIONS);
+  const Vessel fitted =
+      VesselFamily(problem, points, sigma)
+          .fit({chosen.model, 0.0, chosen.upright}, tuning::fit_vessel::ITERATIONS);
   chosen.bic += fitted.cost - chosen.cost;
   chosen.cost = fitted.cost;
   chosen.model = fitted.model;

@@ -9,6 +9,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
+constexpr std::size_t LOOKED_AT = 4096;
 constexpr int CELLS = 32;      ///< per edge of the grid
 constexpr float EXTENT = 3.5F; ///< half the grid, in standard deviations
 constexpr double DENSE = 0.3;  ///< of the well-populated neighbourhoods' count
@@ -39,7 +40,8 @@ int cellOf(const Eigen::Vector3f& p, const Eigen::Vector3f& half) {
 
 } // namespace
 
-UnitPoints densePoints(const UnitPoints& points) {
+UnitPoints densePoints(const UnitPoints& all) {
+  const UnitPoints points = subset(all, LOOKED_AT);
   const std::size_t n = points.size();
   // cubic cells: the same half-width along all axes, as small as the points allow
   float reach = 0.0F;

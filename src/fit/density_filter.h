@@ -6,7 +6,8 @@
 namespace pcl_sq::detail {
 
 /** \brief The points that have many neighbours: those of a surface rather than of the
- * space around it. Only starts are made from them; no point is lost to the fit. */
+ * space around it; of many points some thousands are looked at. Only starts are made
+ * from them; no point is lost to the fit. */
 UnitPoints densePoints(const UnitPoints& points);
 
 } // namespace pcl_sq::detail

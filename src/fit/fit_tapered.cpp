@@ -17,12 +17,11 @@ using namespace detail;
 
 constexpr std::size_t FINAL_POINTS = 16384;
 constexpr std::size_t DECIDING_POINTS = 2048;
-constexpr std::size_t MEDIUM_POINTS = 512;
-constexpr std::size_t COARSE_POINTS = 256;
 constexpr double WIDE = 0.1; ///< sigma of the starts, in the cloud's deviation
 
 constexpr double SHRINKAGE = 0.2; ///< of sigma in a round, at most
-constexpr double SETTLED = 0.01;  ///< relative change of sigma that ends the rounds
+constexpr double TAPER_SETTLED =
+    0.01; ///< relative change of sigma that ends the rounds
 
 /** \brief Points and what tapered bodies are fitted to them with.
  *
@@ -55,7 +54,7 @@ public:
       c.mixture = estimated(
           c.mixture, r.equations.share, r.equations.weighted, size(), setting_.limits);
       c.mixture.sigma = std::max(c.mixture.sigma, SHRINKAGE * before);
-      if (std::abs(c.mixture.sigma - before) < SETTLED * before)
+      if (std::abs(c.mixture.sigma - before) < TAPER_SETTLED * before)
         break;
     }
     c.nll = c.mixture.negativeLogLikelihood(

@@ -12,18 +12,15 @@ namespace {
 
 using kernels::Residual;
 
-constexpr std::size_t COARSE_POINTS = 256;
-constexpr std::size_t MEDIUM_POINTS = 512;
-constexpr std::size_t DENSITY_POINTS = 4096;
 constexpr int COARSE_ITERATIONS = 4; ///< per round, with the radial distance
 constexpr int FINE_ITERATIONS = 5;   ///< per round, with the foot point's
 constexpr int FINE_ROUNDS = 3;
 constexpr int SWITCH_ROUNDS = 2;
-constexpr std::size_t SWITCHES = 2; ///< other descriptions that are refined
-constexpr double MARGIN = 0.1;      ///< of the likelihood's between coarse and fine
-constexpr double EXACT = 1e-4;      ///< a sigma that only the right shape has
-constexpr double NOTABLE = 1e-3;    ///< smallest gain that starts another round
-constexpr double SETTLED = 0.05;    ///< relative change of sigma that ends the rounds
+constexpr std::size_t SWITCHES = 2;  ///< other descriptions that are refined
+constexpr double MARGIN = 0.1;       ///< of the likelihood's between coarse and fine
+constexpr double EXACT_START = 1e-4; ///< a sigma that only the right shape has
+constexpr double NOTABLE = 1e-3;     ///< smallest gain that starts another round
+constexpr double SETTLED = 0.05;     ///< relative change of sigma that ends the rounds
 constexpr double COARSE_SHRINKAGE = 0.3;
 constexpr double FINE_SHRINKAGE = 0.05;
 
@@ -89,8 +86,7 @@ Candidate anneal(const UnitPoints& points,
 Candidate search(const UnitPoints& points, bool thorough, FitSetting& s) {
   const UnitPoints medium = subset(points, MEDIUM_POINTS);
   const UnitPoints coarse = thorough ? medium : subset(medium, COARSE_POINTS);
-  const UnitPoints dense =
-      subset(densePoints(subset(points, DENSITY_POINTS)), 2 * MEDIUM_POINTS);
+  const UnitPoints dense = subset(densePoints(points), 2 * MEDIUM_POINTS);
   // a tournament: few iterations for all starts, more for the best
   std::vector<Superquadric> starts = startShapes(dense);
   if (thorough)
@@ -118,7 +114,7 @@ Candidate search(const UnitPoints& points, bool thorough, FitSetting& s) {
     const Candidate fine = anneal(medium, c, Residual::FOOT_POINT, FINE_ROUNDS, s);
     if (fine.nll < best.nll)
       best = fine;
-    if (best.mixture.sigma < EXACT)
+    if (best.mixture.sigma < EXACT_START)
       return best;
   }
   // the same body described otherwise may be a better start than any of the above

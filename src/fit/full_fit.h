@@ -6,6 +6,9 @@
 
 namespace pcl_sq::detail {
 
+constexpr std::size_t COARSE_POINTS = 256; ///< among which starts are compared
+constexpr std::size_t MEDIUM_POINTS = 512; ///< for the best of them
+
 /** \brief A superquadric with its mixture and how well both explain the points. */
 struct Candidate {
   Superquadric model;

@@ -10,7 +10,6 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t POINTS = 512;
-constexpr std::size_t DENSITY_POINTS = 4096;
 constexpr double EXACT = 1e-5;      ///< a sigma that only the right shape has
 constexpr double SYSTEMATIC = 0.35; ///< a correlation that noise never has
 constexpr double MANY_OUTLIERS = 0.03;
@@ -67,7 +66,7 @@ double residualCorrelation(const UnitPoints& points, const Candidate& c) {
 bool outliersCrowded(const UnitPoints& points, const Candidate& c) {
   if (c.mixture.outlier_share < MANY_OUTLIERS)
     return false;
-  const UnitPoints dense = densePoints(subset(points, DENSITY_POINTS));
+  const UnitPoints dense = densePoints(points);
   const std::vector<float> residuals = residualsOf(dense, c.model);
   const auto outlying = static_cast<float>(4.0 * c.mixture.sigma);
   const auto count =

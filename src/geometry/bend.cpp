@@ -52,11 +52,11 @@ Latitude latitude(const Superquadric& s, double t) {
 
 /** \brief A point of the bent axis: its angle on the circle, how far it lies towards
  * the circle's centre, and how far along the straight axis. */
-struct Arc {
+struct ArcPlace {
   double sine, cosine, inwards, along;
 };
 
-Arc arcAt(const Superquadric& s, double z) {
+ArcPlace arcAt(const Superquadric& s, double z) {
   const double half_angle = 0.5 * s.bend * z;
   const double half = std::sin(half_angle);
   const double sine = 2.0 * half * std::cos(half_angle), versine = 2.0 * half * half;
@@ -74,7 +74,7 @@ double placeAt(const Superquadric& s, double height) {
 
 BentFrame bentFrame(const Superquadric& s, double z) {
   const Eigen::Vector3d d = towards(s), across(-d.y(), d.x(), 0.0);
-  const Arc arc = arcAt(s, z);
+  const ArcPlace arc = arcAt(s, z);
   const Eigen::Vector3d inwards = arc.cosine * d - arc.sine * Eigen::Vector3d::UnitZ();
   BentFrame f;
   f.middle = arc.inwards * d;
@@ -152,12 +152,6 @@ const char* invalidBend(const Superquadric& s) {
   return nullptr;
 }
 
-namespace {
-
-constexpr double MAX_SECTION = 1.98; // as for a taper: beyond, the norm's limit
-
-} // namespace
-
 struct BentSupport::Touching {
   Eigen::Vector2d n, size; ///< direction in the section, its semi-axes
   double u, v, reach;
@@ -172,7 +166,7 @@ BentSupport::BentSupport(const Superquadric& s, double low, double high)
 
 BentSupport::Slice BentSupport::at(double t) const {
   const Latitude l = latitude(s_, t);
-  const Arc arc = arcAt(s_, s_.semi_axes.z() * l.height);
+  const ArcPlace arc = arcAt(s_, s_.semi_axes.z() * l.height);
   return {l.sine,
           l.cosine,
           l.height,

@@ -10,14 +10,14 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int STEPS = kernels::Outline::STEPS; ///< of a meridian's curve
-constexpr int REFINEMENTS = 18;   ///< golden sections about the nearest chord
-constexpr double STRAIGHT = 1e-5; ///< of the body's size that a chord may miss
+constexpr int CHORD_REFINEMENTS = 18; ///< golden sections about the nearest chord
+constexpr double STRAIGHT = 1e-5;     ///< of the body's size that a chord may miss
 /** \brief Chords in the place of one: half a circle in STEPS of them misses by 7.7e-4
  * of the radius, and the square of this less. */
 constexpr std::size_t FINE = kernels::Outline::FINE;
 /** \brief Points from which on refined curves are worth their making: a point costs a
- * REFINEMENTS-th of a golden section's powers, a curve FINE x STEPS of them. */
-constexpr std::size_t MANY = 2 * FINE * STEPS / REFINEMENTS;
+ * CHORD_REFINEMENTS-th of a golden section's powers, a curve FINE x STEPS of them. */
+constexpr std::size_t MANY = 2 * FINE * STEPS / CHORD_REFINEMENTS;
 
 bool inPolygon(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
@@ -123,7 +123,7 @@ Meridian::distanceTo(const Curve& c, const Eigen::Vector2d& p, double enough) co
     high = 0.5 * (high + c.places[chord + 2]);
   double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
   double at_left = squareAt(left), at_right = squareAt(right);
-  for (int i = 0; i < REFINEMENTS; ++i)
+  for (int i = 0; i < CHORD_REFINEMENTS; ++i)
     if (at_left < at_right) {
       high = right;
       right = left;

@@ -12,6 +12,10 @@ class BentSupport; // bend.h
 
 using Vector13 = Eigen::Matrix<double, 13, 1>;
 
+/** \brief Largest e2 of a section's dual norm: with 2 it is the maximum norm, the limit
+ * of those below. */
+constexpr double MAX_SECTION = 1.98;
+
 /** \brief Growth of the section at a height z of the own frame (M2), never below that
  * of the largest taper; exactly one without a taper. */
 inline Eigen::Vector3d growth(const Superquadric& s, double z) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The support function of a superquadric with a taper, a rim or a bend (M3), by slices.
 #include "geometry/bend.h"
+#include "geometry/taper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,8 @@ namespace pcl_sq::detail {
 
 namespace {
 
-/** \brief With e2 = 2 the section's dual norm is the maximum norm: the limit of those
- * below. */
-constexpr double MAX_SECTION = 1.98;
-constexpr int SLICES = 16;      ///< of the search, equal angles from pole to pole
-constexpr int REFINEMENTS = 24; ///< golden sections of the best two slices
+constexpr int SLICES = 16;            ///< of the search, equal angles from pole to pole
+constexpr int SLICE_REFINEMENTS = 24; ///< golden sections of the best two slices
 
 /** \brief The body cut at a latitude eta, up to that of its rim: z = a3 sin^e1(eta),
  * the section scaled by cos^e1(eta) and the taper. In a direction n of the own frame,
@@ -68,7 +66,7 @@ public:
     double low = std::max(best - step, -M_PI_2), high = std::min(best + step, top_);
     double left = high - GOLDEN * (high - low), right = low + GOLDEN * (high - low);
     double at_left = at(left).reach, at_right = at(right).reach;
-    for (int i = 0; i < REFINEMENTS; ++i) {
+    for (int i = 0; i < SLICE_REFINEMENTS; ++i) {
       if (at_left > at_right) {
         high = right;
         right = left;

@@ -11,8 +11,7 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr int REFINEMENTS = 2;
-constexpr double ALIGNED = 0.02;    ///< slope below which a line is left as it is
-constexpr double MIN_COSINE = 1e-3; ///< of normal and line: not even nearly opposite
+constexpr double ALIGNED = 0.02; ///< slope below which a line is left as it is
 
 } // namespace
 

@@ -7,6 +7,8 @@
 
 namespace pcl_sq::detail {
 
+constexpr double MIN_COSINE = 1e-3; ///< of normal and line: not even nearly opposite
+
 /** \brief Two contacts and the line along which the jaws close on them. */
 struct ClosingLine {
   std::array<Eigen::Vector3d, 2> points, normals; ///< on the union, outward

@@ -9,8 +9,6 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double MIN_COSINE = 1e-3; ///< of normal and line: not even nearly opposite
-
 /** \brief The reflections and half turns of a superquadric's axes, by their signs. */
 constexpr int SYMMETRIES[7][3] = {{-1, 1, 1},
                                   {1, -1, 1},

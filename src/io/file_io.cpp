@@ -16,6 +16,21 @@ namespace fs = std::filesystem;
 
 namespace pcl_sq {
 
+namespace detail {
+
+/** \brief A pipe or device that is open. */
+struct OpenStream {
+  OpenStream(const std::string& path, const OutputTarget& where)
+      : target(where), descriptor(detail::openStream(path, where)) {}
+  ~OpenStream() { detail::closeStream(target, descriptor); }
+  OpenStream(const OpenStream&) = delete;
+  OpenStream& operator=(const OpenStream&) = delete;
+  const OutputTarget target;
+  const int descriptor;
+};
+
+} // namespace detail
+
 using detail::FileFailure;
 using detail::OutputTarget;
 using detail::TemporaryFile;
@@ -34,17 +49,6 @@ bool succeeds(const Action& action, std::string* why) {
     return false;
   }
 }
-
-/** \brief A pipe or device that is open. */
-struct Stream {
-  Stream(const std::string& path, const OutputTarget& where)
-      : target(where), descriptor(detail::openStream(path, where)) {}
-  ~Stream() { detail::closeStream(target, descriptor); }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  const OutputTarget target;
-  const int descriptor;
-};
 
 std::string bytesOf(const std::string& path, int descriptor) {
   std::string bytes;
@@ -129,7 +133,7 @@ bool writeFile(const std::string& path, const std::string& bytes, std::string* w
           file.takeName();
           return;
         }
-        const Stream stream(path, target);
+        const detail::OpenStream stream(path, target);
         detail::writeAll(path, stream.descriptor, bytes);
       },
       why);
@@ -183,13 +187,13 @@ struct LineFile::State {
   std::string path;
   // one of the two, once the first line is there
   std::unique_ptr<TemporaryFile> file;
-  std::unique_ptr<Stream> stream;
+  std::unique_ptr<detail::OpenStream> stream;
 
   void open(const std::string& first) {
     const OutputTarget target = detail::resolveOutput(path);
     detail::checkRights(path, target);
     if (target.kind != OutputTarget::REGULAR) {
-      stream = std::make_unique<Stream>(path, target);
+      stream = std::make_unique<detail::OpenStream>(path, target);
       detail::writeAll(path, stream->descriptor, first);
       return;
     }

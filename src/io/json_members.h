@@ -19,9 +19,6 @@
 
 namespace pcl_sq::detail {
 
-/** \brief The order of members is kept: people read these files. */
-using Json = nlohmann::ordered_json;
-
 /** \brief A refusal with its reason; does not leave this folder. */
 struct Refusal {
   std::string why;

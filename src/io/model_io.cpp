@@ -11,14 +11,10 @@ using namespace detail;
 
 namespace {
 
-constexpr const char* SCHEMA = "pcl_sq/model";
-constexpr int VERSION = 1;
+constexpr const char* MODEL_SCHEMA = "pcl_sq/model";
+constexpr int MODEL_VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
 constexpr int OPEN_VERSION = 3; ///< rims, walls, bends and tables
-
-Json vectorToJson(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
   Json rotation = Json::array();
@@ -90,7 +86,7 @@ int versionFromJson(const Json& json) {
   if (!version.is_number_integer())
     throw Refusal{"\"version\" is not a whole number"};
   const auto number = version.get<long long>();
-  if (number < VERSION || number > OPEN_VERSION)
+  if (number < MODEL_VERSION || number > OPEN_VERSION)
     throw Refusal{"version " + version.dump() +
                   " of the schema is not known, 1 to 3 are"};
   return static_cast<int>(number);
@@ -109,11 +105,11 @@ Json detail::modelToJson(const ModelFile& file) {
   };
   const bool tapered = any([](const Superquadric& s) { return s.isTapered(); });
   const bool open = any([](const Superquadric& s) { return s.isCut() || s.isBent(); });
-  Json json = {{"schema", SCHEMA},
+  Json json = {{"schema", MODEL_SCHEMA},
                {"version",
                 file.table || open ? OPEN_VERSION
                 : tapered          ? TAPERED_VERSION
-                                   : VERSION},
+                                   : MODEL_VERSION},
                {"unit", "m"},
                {"frame", file.frame},
                {"superquadrics", parts}};
@@ -124,7 +120,7 @@ Json detail::modelToJson(const ModelFile& file) {
 }
 
 void detail::readModel(const Json& json, ModelFile& file) {
-  checkHead(json, SCHEMA);
+  checkHead(json, MODEL_SCHEMA);
   const int version = versionFromJson(json);
   const Json& parts = member(json, "superquadrics");
   if (!parts.is_array())

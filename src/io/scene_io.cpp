@@ -9,8 +9,8 @@ using namespace detail;
 
 namespace {
 
-constexpr const char* SCHEMA = "pcl_sq/scene";
-constexpr int VERSION = 1;
+constexpr const char* SCENE_SCHEMA = "pcl_sq/scene";
+constexpr int SCENE_VERSION = 1;
 constexpr std::size_t MOST_OBJECTS = 65535; ///< as many as labels tell apart
 
 /** \brief Members that an object has besides those of a model file. */
@@ -69,8 +69,8 @@ SceneFileObject objectFromJson(Json json) {
 }
 
 void read(const Json& json, SceneFile& file) {
-  checkHead(json, SCHEMA);
-  if (!json.contains("version") || json.at("version") != VERSION)
+  checkHead(json, SCENE_SCHEMA);
+  if (!json.contains("version") || json.at("version") != SCENE_VERSION)
     throw Refusal{"its version is not known, 1 is"};
   if (!json.contains("objects") || !json.at("objects").is_array())
     throw Refusal{"\"objects\" must be a list"};
@@ -103,8 +103,10 @@ MultiSuperquadric SceneFile::all(std::size_t without) const {
 }
 
 std::string toJson(const SceneFile& file, int indent) {
-  Json json = {
-      {"schema", SCHEMA}, {"version", VERSION}, {"unit", "m"}, {"frame", file.frame}};
+  Json json = {{"schema", SCENE_SCHEMA},
+               {"version", SCENE_VERSION},
+               {"unit", "m"},
+               {"frame", file.frame}};
   if (file.table)
     json["table"] = *file.table;
   json["objects"] = Json::array();
@@ -119,7 +121,7 @@ bool isScene(const std::string& text) {
   Json json;
   std::string why;
   return parseJson(text, json, &why) && json.is_object() &&
-         optionalString(json, "schema") == SCHEMA;
+         optionalString(json, "schema") == SCENE_SCHEMA;
 }
 
 bool fromJson(const std::string& text, SceneFile& file, std::string* why) {

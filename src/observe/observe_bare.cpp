@@ -86,8 +86,8 @@ bool observeBare(Observation& o, std::string& why) {
     return false;
   }
   shuffle(o, columns);
-  if (columns.size() > MAX_POINTS)
-    columns.resize(MAX_POINTS);
+  if (columns.size() > tuning::observe_bare::MAX_POINTS)
+    columns.resize(tuning::observe_bare::MAX_POINTS);
   dropLonely(o, columns);
   out.columns = columns;
   out.points.resize(3, static_cast<Eigen::Index>(columns.size()));

@@ -47,8 +47,9 @@ void choosePoints(Observation& o,
                   const DepthPatch& patch,
                   int rim) {
   const double area = double(o.out.pixels.count());
-  const int step =
-      std::max(1, static_cast<int>(std::floor(std::sqrt(area / double(MAX_POINTS)))));
+  const int step = std::max(1,
+                            static_cast<int>(std::floor(std::sqrt(
+                                area / double(tuning::observe_points::MAX_POINTS)))));
   std::vector<int> chosen;
   std::size_t pixels = 0, finite = 0; // well inside the mask; with a depth
   for (int shrink = rim; shrink >= 0 && chosen.size() < std::size_t(MIN_IMAGE_POINTS);

@@ -46,7 +46,8 @@ bool besideAnother(const Observation& o, const DepthPatch& patch, int x, int y) 
     for (int dx = -OCCLUDER_REACH; dx <= OCCLUDER_REACH; ++dx) {
       if (!o.view.others(x + dx, y + dy))
         continue;
-      near = near || (std::abs(dx) <= BESIDE && std::abs(dy) <= BESIDE);
+      near = near || (std::abs(dx) <= tuning::observe_surroundings::BESIDE &&
+                      std::abs(dy) <= tuning::observe_surroundings::BESIDE);
       const int c = (y + dy) * o.width + x + dx;
       if (o.finite(c))
         depths[others++] = double(o.points(2, c));

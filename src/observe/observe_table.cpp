@@ -172,15 +172,16 @@ supportOf(const Observation& o, const Surroundings& around, const TableModel& pl
       ++sides[std::abs(d.x()) > std::abs(d.y()) ? (d.x() < 0.0 ? 0 : 1)
                                                 : (d.y() < 0.0 ? 2 : 3)];
     }
-    if (beyond < BESIDE * out.extent)
+    if (beyond < tuning::observe_table::BESIDE * out.extent)
       ++(is_on ? beside[sector].on : beside[sector].through);
   }
   std::size_t carried = 0, open = 0;
   for (const Sector& s : beside)
     if (s.on + s.through >= FEWEST_OF_SECTOR)
       ++(s.on > s.through ? carried : open);
-  const auto told =
-      std::count_if(sides.begin(), sides.end(), [](auto n) { return n >= FEWEST; });
+  const auto told = std::count_if(sides.begin(), sides.end(), [](auto n) {
+    return n >= tuning::observe_table::FEWEST;
+  });
   const Eigen::Vector3d normal = out.camera.rotation.transpose() * plane.normal;
   const bool from_above = -normal.y() <= UPRIGHT && !o.view.up;
   if (told < (from_above ? 4 : 2))
@@ -199,7 +200,7 @@ void settle(const std::vector<Eigen::Vector3d>& points,
   TableModel largest;
   if (findPlane(points, noise, {}, largest))
     plane = largest.normal.dot(plane.normal) < 0.0 ? flipped(largest) : largest;
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < tuning::observe_table::ROUNDS; ++round) {
     std::vector<double> off;
     for (const Eigen::Vector3d& p : points)
       off.push_back(std::abs(plane.height(p)));

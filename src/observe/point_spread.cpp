@@ -70,7 +70,7 @@ Eigen::Vector3d likelyAxis(const std::vector<Look>& looks, double independent) {
 
 PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
   const Eigen::Index n = points.cols();
-  if (n < FEWEST)
+  if (n < tuning::point_spread::FEWEST)
     return;
   Neighbourhood neighbourhood(points);
   const Eigen::Index step = std::max<Eigen::Index>(1, n / PATCHES);
@@ -83,7 +83,7 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
       densities.push_back(patch->density);
       box.extend(patch->place);
     }
-  if (Eigen::Index(patches_.size()) < FEWEST)
+  if (Eigen::Index(patches_.size()) < tuning::point_spread::FEWEST)
     return;
   const double distance = FAR * 0.5 * box.diagonal().norm();
   middle_.setZero();
@@ -102,8 +102,8 @@ PointSpread::PointSpread(const Eigen::Matrix3Xd& points) {
     const double r = std::sqrt(1.0 - z * z);
     look({r * std::cos(turn), r * std::sin(turn), z});
   }
-  const double independent =
-      std::min(double(patches_.size()), double(n) / double(NEIGHBOURS));
+  const double independent = std::min(
+      double(patches_.size()), double(n) / double(tuning::point_spread::NEIGHBOURS));
   const Eigen::Vector3d rough = likelyAxis(looks, independent);
   const Eigen::Vector3d across = rough.unitOrthogonal();
   least_ = leastOf(looks);
@@ -143,7 +143,8 @@ PointSpread::patchOf(const Eigen::Matrix3Xd& points,
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(square);
   const double reach =
-      (points.col(near[NEIGHBOURS]) - points.col(middle)).squaredNorm();
+      (points.col(near[tuning::point_spread::NEIGHBOURS]) - points.col(middle))
+          .squaredNorm();
   if (!(reach > 0.0) || eigen.info() != Eigen::Success)
     return std::nullopt;
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);

@@ -91,7 +91,7 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
   const std::vector<double>& height = half.height;
   const std::vector<std::size_t>& order = half.order;
   double square = 0.0;
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < tuning::sheets::ROUNDS; ++round) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
     for (std::size_t k = 0; k < half.size(); ++k)
@@ -120,14 +120,15 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
         sum += height[k];
         middle += points.col(near[k]) - at;
       }
-    if (beyond.size() < FEWEST)
+    if (beyond.size() < tuning::sheets::FEWEST)
       continue;
     const double mean = sum / double(beyond.size());
     for (const std::size_t k : beyond)
       deviation += std::abs(height[k] - mean) / double(beyond.size());
     middle /= double(beyond.size());
     middle -= sheet.normal * sheet.normal.dot(middle);
-    if (deviation < EVEN * std::abs(mean) && middle.norm() < BESIDE * radius &&
+    if (deviation < EVEN * std::abs(mean) &&
+        middle.norm() < tuning::sheets::BESIDE * radius &&
         (sheet.other == 0.0 || std::abs(mean) < std::abs(sheet.other)))
       sheet.other = mean;
   }
@@ -156,11 +157,12 @@ Sheet sheetAt(const Eigen::Matrix3Xd& points,
 std::vector<Sheet> sheetsOf(const Eigen::Matrix3Xd& points) {
   const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / LOOKED_AT);
   std::vector<Sheet> sheets;
-  if (points.cols() < Eigen::Index(2 * NEIGHBOURS))
+  if (points.cols() < Eigen::Index(2 * tuning::sheets::NEIGHBOURS))
     return sheets;
   Neighbourhood neighbourhood(points);
   for (Eigen::Index i = 0; i < points.cols(); i += step)
-    sheets.push_back(sheetAt(points, i, neighbourhood.of(i, NEIGHBOURS)));
+    sheets.push_back(
+        sheetAt(points, i, neighbourhood.of(i, tuning::sheets::NEIGHBOURS)));
   return sheets;
 }
 

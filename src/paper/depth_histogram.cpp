@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/depth_histogram.h"
 
+#include "util/option_check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,12 +13,6 @@ namespace {
 /** Closer than 1/4096 of a pixel's depth, or of 1/41 of the scene's, lies only noise.
  */
 constexpr int MAX_BINS = 4096;
-
-bool fail(std::string* why, const std::string& sentence) {
-  if (why)
-    *why = sentence;
-  return false;
-}
 
 /** Median of a vector that may be reordered; \pre not empty */
 float median(std::vector<float>& values) {
@@ -61,15 +57,15 @@ void findAperture(DepthHistogram& histogram, int max_gap) {
 
 bool DepthHistogramOptions::isValid(std::string* why) const {
   if (!(disparity_scale >= 0.0 && std::isfinite(disparity_scale)))
-    return fail(why, "disparity_scale must not be negative");
+    return detail::refuse(why, "disparity_scale must not be negative");
   if (!(relative_bin > 0.0 && relative_bin <= 1.0))
-    return fail(why, "relative_bin must be in (0, 1]");
+    return detail::refuse(why, "relative_bin must be in (0, 1]");
   if (min_count < 0)
-    return fail(why, "min_count must not be negative");
+    return detail::refuse(why, "min_count must not be negative");
   if (!(min_share >= 0.0 && min_share <= 1.0))
-    return fail(why, "min_share must be in [0, 1]");
+    return detail::refuse(why, "min_share must be in [0, 1]");
   if (max_gap < 0)
-    return fail(why, "max_gap must not be negative");
+    return detail::refuse(why, "max_gap must not be negative");
   return true;
 }
 
@@ -90,9 +86,10 @@ bool computeDepthHistogram(const std::vector<float>& depths,
     return false;
   std::vector<float> valid = usable(depths);
   if (valid.empty())
-    return fail(why,
-                "there are no points in front of the camera; check the 2D region and "
-                "that z points forward");
+    return detail::refuse(
+        why,
+        "there are no points in front of the camera; check the 2D region and "
+        "that z points forward");
   histogram.bin_width = options.disparity_scale > 0.0
                             ? 1.0 / options.disparity_scale
                             : options.relative_bin / static_cast<double>(median(valid));
@@ -109,8 +106,8 @@ bool computeDepthHistogram(const std::vector<float>& depths,
                                  options.min_share * static_cast<double>(pixels));
   findAperture(histogram, options.max_gap);
   if (histogram.last_bin < histogram.first_bin)
-    return fail(why,
-                "no depth has enough points; choose a 2D region that the object fills");
+    return detail::refuse(
+        why, "no depth has enough points; choose a 2D region that the object fills");
   std::vector<float> inside;
   std::copy_if(valid.begin(),
                valid.end(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/voxel_layout.h"
 
+#include "util/option_check.h"
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,12 +13,6 @@ namespace {
 
 /** Farther away than this lies no scene, only outliers of broken sensors and files. */
 constexpr double MAX_COORDINATE = 1e7; // [m]
-
-bool fail(std::string* why, const std::string& sentence) {
-  if (why)
-    *why = sentence;
-  return false;
-}
 
 double divisionsAlong(int axis, double side, const VoxelOptions& options) {
   if (!(side > 0.0))
@@ -41,15 +37,15 @@ double divisionsAlong(int axis, double side, const VoxelOptions& options) {
 
 bool VoxelOptions::isValid(std::string* why) const {
   if (!((percent.array() > 0.0).all() && (percent.array() <= 100.0).all()))
-    return fail(why, "percent must be in (0, 100]");
+    return detail::refuse(why, "percent must be in (0, 100]");
   if (!(target_size > 0.0 && std::isfinite(target_size)))
-    return fail(why, "target_size must be positive");
+    return detail::refuse(why, "target_size must be positive");
   if (min_divisions < 1 || max_divisions < min_divisions)
-    return fail(why, "min_divisions must be in [1, max_divisions]");
+    return detail::refuse(why, "min_divisions must be in [1, max_divisions]");
   if ((divisions.array() < 1).any())
-    return fail(why, "divisions must be at least 1");
+    return detail::refuse(why, "divisions must be at least 1");
   if (max_cells < 1)
-    return fail(why, "max_cells must be at least 1");
+    return detail::refuse(why, "max_cells must be at least 1");
   return true;
 }
 
@@ -102,11 +98,12 @@ bool makeVoxelLayout(const RoiBox& region,
   const Eigen::Vector3d sides = region.sizes();
   if (!((region.min.array().abs() <= MAX_COORDINATE).all() &&
         (region.max.array().abs() <= MAX_COORDINATE).all()))
-    return fail(why,
-                "the region reaches farther than 1e7 m; remove the outliers or set a "
-                "region");
+    return detail::refuse(
+        why,
+        "the region reaches farther than 1e7 m; remove the outliers or set a "
+        "region");
   if ((sides.array() < 0.0).any())
-    return fail(why, "the region's min is above its max; exchange them");
+    return detail::refuse(why, "the region's min is above its max; exchange them");
   Eigen::Vector3d wanted;
   for (int axis = 0; axis < 3; ++axis)
     wanted[axis] = divisionsAlong(axis, sides[axis], options);
@@ -115,7 +112,7 @@ bool makeVoxelLayout(const RoiBox& region,
     sentence << wanted[0] << " x " << wanted[1] << " x " << wanted[2]
              << " voxels exceed the limit of " << options.max_cells
              << "; ask for fewer divisions";
-    return fail(why, sentence.str());
+    return detail::refuse(why, sentence.str());
   }
   layout.region = region;
   layout.divisions = wanted.cast<int>();

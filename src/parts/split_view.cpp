@@ -88,7 +88,8 @@ void keepPromising(std::vector<Split>& splits, double limit) {
   if (!splits.empty())
     limit = std::min(limit + QUICK_SLACK,
                      QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
-  while (!splits.empty() && (splits.size() > TRIED || splits.back().score > limit))
+  while (!splits.empty() &&
+         (splits.size() > tuning::split_view::TRIED || splits.back().score > limit))
     splits.pop_back();
 }
 

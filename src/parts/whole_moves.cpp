@@ -116,7 +116,7 @@ Description WholeMoves::cutOnce(Description& d) const {
                    choices.end(),
                    [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
   while (!choices.empty() &&
-         (choices.size() > TRIED ||
+         (choices.size() > tuning::whole_search::TRIED ||
           choices.back().gain < choices.front().gain - 4.0 * QUICK_SLACK))
     choices.pop_back();
   std::vector<Description> tries(choices.size());
@@ -191,8 +191,8 @@ std::vector<WholeMoves::Join> WholeMoves::joinsOf(const Description& d) {
   std::stable_sort(joins.begin(), joins.end(), [](const Join& x, const Join& y) {
     return x.score < y.score;
   });
-  if (joins.size() > TRIED)
-    joins.erase(joins.begin() + TRIED, joins.end());
+  if (joins.size() > tuning::whole_search::TRIED)
+    joins.erase(joins.begin() + tuning::whole_search::TRIED, joins.end());
   return joins;
 }
 

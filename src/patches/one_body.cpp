@@ -12,7 +12,6 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr std::size_t MOST_POINTS = 150; ///< of a body; neighbours share their errors
-constexpr double CORRELATION = 7.0;      ///< side of the square that shares them [px]
 /** \brief Things are no superquadrics: see fit_object.cpp. */
 constexpr double MODEL_ERROR = 0.01;
 constexpr int STARTS = 3;

@@ -10,11 +10,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double JUMPS = 0.5;       ///< of a border, at which it is an edge in depth
-constexpr int LEAST_BORDER = 3;     ///< pairs of pixels that make a contact
-constexpr double CORRELATION = 7.0; ///< pixels that share their errors
-constexpr double WIDE = 0.5;        ///< of a patch's width, where its surface goes on
-constexpr double STANDS = 3.0; ///< standing heights: lower, and it reaches the table
+constexpr int LEAST_BORDER = 3; ///< pairs of pixels that make a contact
+constexpr double WIDE = 0.5;    ///< of a patch's width, where its surface goes on
+constexpr double STANDS = 3.0;  ///< standing heights: lower, and it reaches the table
 /** \brief Of a carrying thing's pixels, that show the face on which another stands, and
  * standing heights within which that is level. */
 constexpr double LEDGE = 0.15, LEVEL = 2.0;

@@ -13,10 +13,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double SAME_COLOR = 1.0; ///< of colorDistance(), neighbours'
-constexpr double SAME_PATCH = 1.5; ///< of whole patches
-constexpr double JUMPS = 0.5;      ///< of a border, at which it is an edge in depth
-constexpr double STRAYS = 0.02;    ///< of a patch's pixels
+constexpr double ALIKE_COLOR = 1.0; ///< of colorDistance(), neighbours'
+constexpr double SAME_PATCH = 1.5;  ///< of whole patches
+constexpr double STRAYS = 0.02;     ///< of a patch's pixels
 
 constexpr double FEW = 0.1; ///< of a line's pixels that may be errors
 
@@ -181,7 +180,7 @@ Patches patchesOf(const SceneView& view, const Superpixels& superpixels) {
     const PieceSums& a = superpixels.pieces[std::size_t(pair.first)];
     const PieceSums& b = superpixels.pieces[std::size_t(pair.second)];
     const double distance = colorDistance(a, b);
-    if (distance < SAME_COLOR && border.jumps < JUMPS * border.pairs &&
+    if (distance < ALIKE_COLOR && border.jumps < JUMPS * border.pairs &&
         border.meanFold() < FOLD)
       links.push_back({pair.first, pair.second, distance});
   }

@@ -9,10 +9,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int HALF = 4;       ///< pixels about each: a superpixel's size
-constexpr int STEP = 2;       ///< of them are looked at: neighbours share their errors
-constexpr float LEAST = 6.0F; ///< of a plane's pixels
-constexpr float STEEPEST = 5.0F; ///< see superpixels.cpp
+constexpr int HALF = 4;        ///< pixels about each: a superpixel's size
+constexpr int SPARSE_STEP = 2; ///< of them are looked at: neighbours share their errors
+constexpr float LEAST = 6.0F;  ///< of a plane's pixels
 
 /** \brief Moments of a plane's inverse depths, which are linear in the pixel. */
 struct Moments {
@@ -49,13 +48,13 @@ pixelNormals(const SceneView& view, const CellMask& pixels, double jump) {
       const int c = y * view.width + x;
       const float here = 1.0F / view.points(2, c);
       Moments m;
-      for (int v = -HALF; v <= HALF; v += STEP)
-        for (int u = -HALF; u <= HALF; u += STEP) {
+      for (int v = -HALF; v <= HALF; v += SPARSE_STEP)
+        for (int u = -HALF; u <= HALF; u += SPARSE_STEP) {
           if (!pixels(x + u, y + v))
             continue;
           const float w = 1.0F / view.points(2, c + v * view.width + u) - here;
           const auto far = float(std::max(std::abs(u), std::abs(v)));
-          if (std::abs(w) <= STEEPEST * far * here / fx + float(jump))
+          if (std::abs(w) <= float(STEEPEST) * far * here / fx + float(jump))
             m.add(float(u), float(v), w);
         }
       const float xx = m.xx - m.x * m.x / m.n, yy = m.yy - m.y * m.y / m.n;

@@ -6,6 +6,11 @@
 
 namespace pcl_sq::detail {
 
+constexpr double CORRELATION = 7.0; ///< side of the square that shares its errors [px]
+/** \brief Tangent of the steepest slope to the ray at which a surface is still seen:
+ * depth cameras see nothing below some 10 degrees. */
+constexpr double STEEPEST = 5.0;
+
 /** \brief An organized cloud in its camera's frame and what is known of it. */
 struct SceneView {
   const CloudPoints& points;

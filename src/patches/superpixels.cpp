@@ -12,13 +12,10 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int STEP = 9;   ///< pixels between the seeds
-constexpr int ROUNDS = 4; ///< of assignment; more change little
-constexpr int REACH = 2;  ///< pixels across which pieces touch: missing ones between
+constexpr int SEED_STEP = 9; ///< pixels between the seeds
+constexpr int ROUNDS = 4;    ///< of assignment; more change little
+constexpr int REACH = 2;     ///< pixels across which pieces touch: missing ones between
 constexpr double SIGMAS = 3.0; ///< of the depth's noise: more is a jump
-/** \brief Tangent of the steepest slope to the ray at which a surface is still seen:
- * depth cameras see nothing below some 10 degrees. */
-constexpr double STEEPEST = 5.0;
 
 constexpr float TURN = 0.35F; ///< of a normal: a fold that may part things [rad]
 
@@ -37,8 +34,8 @@ class Divider {
 public:
   Divider(const SceneView& view, const CellMask& pixels)
       : view_(view), pixels_(pixels), noise_(depthNoise(view)),
-        columns_((view.width + STEP - 1) / STEP),
-        rows_((view.height + STEP - 1) / STEP) {
+        columns_((view.width + SEED_STEP - 1) / SEED_STEP),
+        rows_((view.height + SEED_STEP - 1) / SEED_STEP) {
     seeds_.resize(std::size_t(columns_) * std::size_t(rows_));
     for (std::size_t i = 0; i < pixels.cells.size(); ++i)
       if (pixels.cells[i])
@@ -64,7 +61,7 @@ public:
 
 private:
   int cellOf(int c) const {
-    return (c / view_.width) / STEP * columns_ + (c % view_.width) / STEP;
+    return (c / view_.width) / SEED_STEP * columns_ + (c % view_.width) / SEED_STEP;
   }
   void update() {
     for (Seed& s : seeds_)
@@ -89,12 +86,15 @@ private:
     const int x = c % view_.width, y = c / view_.width;
     const float z = view_.points(2, c);
     const Eigen::Vector3f at{float(x), float(y), z};
-    const auto along = 1.0F / float(2.0 * STEP * z / view_.camera.fx +
+    const auto along = 1.0F / float(2.0 * SEED_STEP * z / view_.camera.fx +
                                     2.0 * noise_ * double(z) * double(z));
-    const Eigen::Vector3f scale{1.0F / STEP, 1.0F / STEP, along};
+    const Eigen::Vector3f scale{1.0F / SEED_STEP, 1.0F / SEED_STEP, along};
     float best = 1e30F;
-    for (int j = std::max(0, y / STEP - 1); j <= std::min(rows_ - 1, y / STEP + 1); ++j)
-      for (int i = std::max(0, x / STEP - 1); i <= std::min(columns_ - 1, x / STEP + 1);
+    for (int j = std::max(0, y / SEED_STEP - 1);
+         j <= std::min(rows_ - 1, y / SEED_STEP + 1);
+         ++j)
+      for (int i = std::max(0, x / SEED_STEP - 1);
+           i <= std::min(columns_ - 1, x / SEED_STEP + 1);
            ++i) {
         const Seed& s = seeds_[std::size_t(j) * std::size_t(columns_) + std::size_t(i)];
         if (s.count == 0.0F)
@@ -130,7 +130,7 @@ private:
         });
       size.push_back(int(queue.size()));
     }
-    constexpr int SCRAP = STEP * STEP / 6;
+    constexpr int SCRAP = SEED_STEP * SEED_STEP / 6;
     for (int pass = 0; pass < 2; ++pass)
       for (const int c : set_) {
         if (size[std::size_t(piece[std::size_t(c)])] >= SCRAP)

@@ -29,6 +29,8 @@ struct PieceSums {
  * brightness, which light and shade change, last. */
 [[nodiscard]] Eigen::Vector4f shadeOf(const Eigen::Vector3d& color);
 
+constexpr double JUMPS = 0.5; ///< of a border, at which it is an edge in depth
+
 /** \brief What is seen where two pieces meet. */
 struct Border {
   int pairs = 0; ///< of neighbouring pixels

@@ -18,8 +18,10 @@ using namespace tuning::free_space;
 
 bool isWellInside(const CellMask& mask, const Eigen::Vector2d& pixel) {
   const int x = int(pixel.x()), y = int(pixel.y());
-  return mask(x - MARGIN, y) && mask(x + MARGIN, y) && mask(x, y - MARGIN) &&
-         mask(x, y + MARGIN);
+  return mask(x - tuning::free_space::MARGIN, y) &&
+         mask(x + tuning::free_space::MARGIN, y) &&
+         mask(x, y - tuning::free_space::MARGIN) &&
+         mask(x, y + tuning::free_space::MARGIN);
 }
 
 /** \brief A point of a ray well inside a body. \return false if the ray misses it */

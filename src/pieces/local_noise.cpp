@@ -19,8 +19,10 @@ double localNoise(const Eigen::Matrix3Xd& points, double effective_points) {
   const Eigen::Index n = points.cols();
   // neighbours that share their error hide it: look further
   const double sharing = double(n) / std::max(1.0, effective_points);
-  const auto neighbours = std::clamp(
-      static_cast<std::size_t>(double(FEWEST) * sharing / SHARING), FEWEST, MOST);
+  const auto neighbours =
+      std::clamp(static_cast<std::size_t>(double(FEWEST) * sharing / SHARING),
+                 FEWEST,
+                 tuning::local_noise::MOST);
   if (n < Eigen::Index(2 * neighbours))
     return 0.0;
   std::vector<double> deviations;

@@ -18,7 +18,7 @@ double stripWidth(const ObservedObject& o) {
 }
 
 BesideJoints::BesideJoints(const ObservedObject& o, const Piece& piece, double size)
-    : joint_(JOINT * size / o.depth) {
+    : joint_(tuning::piece_outline::JOINT * size / o.depth) {
   for (const TangentPlane& end : piece.ends)
     angles_.emplace_back(o.camera, -end.normal);
 }

@@ -50,7 +50,8 @@ Profile counts(const std::vector<std::vector<double>>& across) {
 /** \brief Adds the bins at whose lower end a profile jumps most. */
 void addJumps(const Profile& profile, double smallest, std::vector<int>& taken) {
   std::vector<std::pair<double, int>> strength;
-  for (int b = MARGIN; b <= BINS - MARGIN; ++b) {
+  for (int b = tuning::propose_cuts::MARGIN; b <= BINS - tuning::propose_cuts::MARGIN;
+       ++b) {
     double before = 0.0, after = 0.0;
     int n = 0, m = 0;
     for (int k = 1; k <= WINDOW; ++k) {

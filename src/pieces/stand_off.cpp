@@ -95,8 +95,8 @@ std::vector<int> outside(const PieceContext& context,
 class Projections {
 public:
   Projections(const ObservedObject& o, const std::vector<int>& columns) {
-    constexpr std::size_t MOST = 300;
-    const std::size_t step = 1 + columns.size() / MOST;
+    constexpr std::size_t LOOKED_AT = 300;
+    const std::size_t step = 1 + columns.size() / LOOKED_AT;
     for (std::size_t i = 0; i < columns.size(); i += step)
       pixels_.push_back(o.camera.project(o.points.col(columns[i])));
   }
@@ -157,7 +157,7 @@ bool standsOff(const PieceContext& context,
   // an outline beside the body is the handle's; where they meet it is nobody's
   const double pixel = o.depth / std::sqrt(o.camera.fx * o.camera.fy);
   const BodyOutline near(grown(body, EDGE * pixel), o.camera.center, PLANES),
-      far(grown(body, JOINT * pixel), o.camera.center, PLANES);
+      far(grown(body, tuning::stand_off::JOINT * pixel), o.camera.center, PLANES);
   const auto meets = [&o](const BodyOutline& outline, const Eigen::Vector2d& p) {
     return !outline.misses(o.camera.ray(p));
   };
@@ -196,7 +196,8 @@ bool standsOff(const PieceContext& context,
 
 double scatter(const PieceContext& context, const Piece& piece) {
   constexpr double MEDIAN_OF_NORMAL = 0.6745;
-  const std::size_t step = std::max<std::size_t>(1, piece.points.size() / MOST);
+  const std::size_t step =
+      std::max<std::size_t>(1, piece.points.size() / tuning::stand_off::MOST);
   std::vector<int> some;
   for (std::size_t i = 0; i < piece.points.size(); i += step)
     some.push_back(piece.points[i]);

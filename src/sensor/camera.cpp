@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/camera.h"
 
+#include "util/option_check.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
 
 namespace pcl_sq {
 
-namespace {
-
-bool fail(std::string* why, const std::string& reason) {
-  if (why != nullptr)
-    *why = reason;
-  return false;
-}
-
-} // namespace
-
 bool CameraIntrinsics::isValid(std::string* why) const {
   if (!std::isfinite(fx + fy + cx + cy))
-    return fail(why, "a number of the camera is not finite");
+    return detail::refuse(why, "a number of the camera is not finite");
   if (fx <= 0.0 || fy <= 0.0)
-    return fail(why, "the focal length must be positive");
+    return detail::refuse(why, "the focal length must be positive");
   if (width < 0 || height < 0)
-    return fail(why, "the image size must not be negative");
+    return detail::refuse(why, "the image size must not be negative");
   // An off-centre crop is fine; a principal point far outside is another image's.
   const bool known = width > 0 && height > 0;
   if (known && (cx < -0.5 * width || cx > 1.5 * width || cy < -0.5 * height ||
                 cy > 1.5 * height))
-    return fail(why,
-                "the principal point (" + std::to_string(cx) + ", " +
-                    std::to_string(cy) + ") lies far outside of an image of " +
-                    std::to_string(width) + " x " + std::to_string(height) + " px");
+    return detail::refuse(
+        why,
+        "the principal point (" + std::to_string(cx) + ", " + std::to_string(cy) +
+            ") lies far outside of an image of " + std::to_string(width) + " x " +
+            std::to_string(height) + " px");
   return true;
 }
 
@@ -39,7 +32,7 @@ bool PinholeCamera::isValid(std::string* why) const {
   if (!CameraIntrinsics::isValid(why))
     return false;
   if (!center.allFinite() || !rotation.allFinite())
-    return fail(why, "the camera's pose must be finite");
+    return detail::refuse(why, "the camera's pose must be finite");
   return true;
 }
 

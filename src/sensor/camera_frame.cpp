@@ -13,18 +13,19 @@ namespace {
 
 constexpr double NEAREST = 2.0; ///< camera to points, in half diagonals of their box
 constexpr double FRONT = 0.7;   ///< least cosine between z and the points
-constexpr double FAR = 6.0; ///< viewpoint that is guessed to points, in half diagonals
-constexpr int DIRECTIONS = 100;         ///< from which the points are looked at
-constexpr Eigen::Index LOOKED_AT = 600; ///< points
+constexpr double FAR_AWAY =
+    6.0; ///< viewpoint that is guessed to points, in half diagonals
+constexpr int DIRECTIONS = 100;           ///< from which the points are looked at
+constexpr Eigen::Index SOME_POINTS = 600; ///< points
 /** \brief Share of the directions from which points of one view look seen once: those
  * near the camera's. Of a plate's two sides nobody knows which. */
-constexpr double FEWEST = 0.03, MOST = 0.4;
+constexpr double LEAST_SHARE = 0.03, MOST_SHARE = 0.4;
 /** \brief Least growth of the range from the middle of the view to its rim, in half
  * diagonals: bodies bulge towards who sees them. */
 constexpr double BULGE = 0.02;
-constexpr double POINTS_A_CELL = 8.0; ///< of the angular grid
-constexpr double GAP = 0.2;           ///< between two layers, in half diagonals
-constexpr double DOUBLE_CELLS = 0.2;  ///< more cells with two layers make no view
+constexpr double POINTS_AN_ANGLE = 8.0; ///< of the angular grid
+constexpr double GAP = 0.2;             ///< between two layers, in half diagonals
+constexpr double DOUBLE_CELLS = 0.2;    ///< more cells with two layers make no view
 /** \brief Largest median scatter about the cells' planes, in half diagonals: noise and
  * curvature stay below, front and back of a rod do not. */
 constexpr double SCATTER = 0.03;
@@ -83,9 +84,10 @@ Look lookFrom(const Eigen::Vector3d& place,
     image.col(i) = camera.project(points.col(i));
   const Eigen::Vector2d low = image.rowwise().minCoeff();
   const Eigen::Vector2d size = image.rowwise().maxCoeff() - low;
-  const int cells = std::max(
-      1,
-      static_cast<int>(std::sqrt(static_cast<double>(points.cols()) / POINTS_A_CELL)));
+  const int cells =
+      std::max(1,
+               static_cast<int>(
+                   std::sqrt(static_cast<double>(points.cols()) / POINTS_AN_ANGLE)));
   const auto cell_count = std::size_t(cells) * std::size_t(cells);
   std::vector<std::size_t> cell_of(std::size_t(points.cols())), begins(cell_count + 1);
   double inner = 0.0, outer = 0.0;
@@ -184,14 +186,14 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
     if ((all.col(i) - middle).norm() < 2.0 * extent)
       points.col(kept++) = all.col(i);
   points.conservativeResize(3, kept);
-  const auto some = points.leftCols(std::min(points.cols(), LOOKED_AT));
+  const auto some = points.leftCols(std::min(points.cols(), SOME_POINTS));
   bool asked = !likely;
   const auto likelyPlace = [&]() -> std::optional<Eigen::Vector3d> {
     asked = true;
     const std::optional<Eigen::Vector3d> direction = likely();
     if (!direction)
       return std::nullopt;
-    const Eigen::Vector3d place = middle + FAR * extent * *direction;
+    const Eigen::Vector3d place = middle + FAR_AWAY * extent * *direction;
     return lookFrom(place, points).once() ? std::optional(place) : std::nullopt;
   };
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), roundest = Eigen::Vector3d::Zero();
@@ -203,7 +205,7 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
     const double turn = i * 2.399963229728653; // the golden angle
     const double r = std::sqrt(1.0 - z * z);
     const Eigen::Vector3d direction(r * std::cos(turn), r * std::sin(turn), z);
-    const Look look = lookFrom(middle + FAR * extent * direction, some);
+    const Look look = lookFrom(middle + FAR_AWAY * extent * direction, some);
     // from between two of these directions points look about as from the nearer one
     if (!asked && (one_sided || look.doubt < MUCH))
       if (std::optional<Eigen::Vector3d> place = likelyPlace())
@@ -218,11 +220,12 @@ guessViewpoint(const Eigen::Matrix3Xd& all,
     }
   }
   if (one_sided)
-    return middle + FAR * extent * (sum.norm() > 1e-6 ? sum.normalized() : roundest);
-  if (passed < FEWEST * DIRECTIONS || passed > MOST * DIRECTIONS ||
+    return middle +
+           FAR_AWAY * extent * (sum.norm() > 1e-6 ? sum.normalized() : roundest);
+  if (passed < LEAST_SHARE * DIRECTIONS || passed > MOST_SHARE * DIRECTIONS ||
       !(sum.norm() > 1e-6))
     return std::nullopt;
-  const Eigen::Vector3d place = middle + FAR * extent * sum.normalized();
+  const Eigen::Vector3d place = middle + FAR_AWAY * extent * sum.normalized();
   return lookFrom(place, points).once() ? std::optional(place) : std::nullopt;
 }
 

@@ -11,7 +11,7 @@ namespace pcl_sq::detail {
 namespace {
 
 constexpr Eigen::Index PATCHES = 60;
-constexpr std::size_t FEWEST = 24; ///< points of a patch
+constexpr std::size_t SMALLEST_PATCH = 24; ///< points of a patch
 /** \brief A patch's share of the points: small enough for a quadratic surface. */
 constexpr Eigen::Index SHARE = 20;
 /** \brief Larger ratios of neighbours' differences to the scatter are chance. */
@@ -44,7 +44,8 @@ double varianceBetweenNeighbours(const LocalQuadric& patch) {
 
 double sharingOfErrors(const Eigen::Matrix3Xd& points) {
   const Eigen::Index n = points.cols();
-  const std::size_t count = std::max(FEWEST, static_cast<std::size_t>(n / SHARE));
+  const std::size_t count =
+      std::max(SMALLEST_PATCH, static_cast<std::size_t>(n / SHARE));
   if (n < Eigen::Index(2 * count))
     return 1.0;
   std::vector<double> own, all;

@@ -12,7 +12,7 @@ namespace pcl_sq {
 namespace {
 
 constexpr std::size_t LOOKED_AT = 4000; ///< pixels
-constexpr std::size_t FEWEST = 30;
+constexpr std::size_t FEWEST_SAMPLES = 30;
 constexpr double OFF = 1.0;         ///< a pixel whose point projects farther away [px]
 constexpr double MAX_SHARE = 0.05;  ///< of such pixels in a pinhole image
 constexpr double MAX_SKEW = 0.02;   ///< of the image's axes, over the focal length
@@ -189,7 +189,7 @@ bool findCamera(const CloudPoints& points,
   if (findIntrinsics(points, width, height, camera))
     return true;
   const std::vector<Sample> samples = samplesOf(points, width);
-  if (samples.size() < FEWEST)
+  if (samples.size() < FEWEST_SAMPLES)
     return false;
   camera = {};
   return (viewpoint && cameraAt(*viewpoint, samples, camera)) ||

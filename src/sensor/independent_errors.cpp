@@ -12,9 +12,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int NEAR = 1, FAR = 3;      ///< pixels apart
-constexpr std::size_t FEWEST = 200;   ///< differences of each that tell
-constexpr std::size_t WANTED = 20000; ///< more tell nothing new
+constexpr int SIDE_BY_SIDE = 1, FAR_APART = 3;  ///< pixels apart
+constexpr std::size_t FEWEST_DIFFERENCES = 200; ///< differences of each that tell
+constexpr std::size_t WANTED = 20000;           ///< more tell nothing new
 /** \brief Of independent errors both differences vary alike; where windows are three
  * pixels wide, each shares two thirds with the next, and the near ones have a third of
  * the far ones' variance. The middle, as a ratio of deviations. */
@@ -46,17 +46,20 @@ bool errorsAreIndependent(const Observation& o, const TableModel& plane) {
   std::array<std::vector<double>, 2> off;
   const int step = std::max(1, int(std::sqrt(double(o.width) * o.height / WANTED)));
   for (int y = 0; y < o.height; y += step)
-    for (int x = FAR; x + FAR < o.width; x += step) {
+    for (int x = FAR_APART; x + FAR_APART < o.width; x += step) {
       bool all = true;
-      for (const int d : {-FAR, -NEAR, 0, NEAR, FAR})
+      for (const int d : {-FAR_APART, -SIDE_BY_SIDE, 0, SIDE_BY_SIDE, FAR_APART})
         all = all && onTable(x + d, y);
       if (!all)
         continue;
       const double middle = 2.0 * inverse(x, y);
-      off[0].push_back(std::abs(inverse(x - NEAR, y) + inverse(x + NEAR, y) - middle));
-      off[1].push_back(std::abs(inverse(x - FAR, y) + inverse(x + FAR, y) - middle));
+      off[0].push_back(std::abs(inverse(x - SIDE_BY_SIDE, y) +
+                                inverse(x + SIDE_BY_SIDE, y) - middle));
+      off[1].push_back(
+          std::abs(inverse(x - FAR_APART, y) + inverse(x + FAR_APART, y) - middle));
     }
-  return off[0].size() >= FEWEST && medianOf(off[0]) > ALIKE * medianOf(off[1]);
+  return off[0].size() >= FEWEST_DIFFERENCES &&
+         medianOf(off[0]) > ALIKE * medianOf(off[1]);
 }
 
 double missingEdge(const Observation& o) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int REACH = DepthPatch::MARGIN; ///< half a window's side [px]
 constexpr int STEP = 2;
-constexpr std::size_t FEWEST = 12; ///< pixels that give a slope
+constexpr std::size_t PIXELS_OF_SLOPE = 12; ///< pixels that give a slope
 
 } // namespace
 
@@ -31,7 +31,7 @@ Eigen::VectorXf lateralNoise(const Observation& o, const DepthPatch& patch) {
       moment += (own - depth) * place;
       ++count;
     });
-    if (count < FEWEST)
+    if (count < PIXELS_OF_SLOPE)
       continue;
     const Eigen::Vector3d plane = square.ldlt().solve(moment);
     // slope of the surface against the plane across the ray

@@ -3,6 +3,8 @@
 // pair, where the disparity is zero.
 #include "stereo/disparity_noise.h"
 
+#include "stereo/refine_disparity.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -15,9 +17,6 @@ namespace {
 
 constexpr double WINDOW_SIGMA = 2.0; ///< of the refinement's window [px]
 constexpr int WINDOW = 9;            ///< its side [px]
-constexpr int EXPOSURE_WINDOW = 41;  ///< in which the cameras' exposures agree [px]
-constexpr int NOISE_WINDOW = 15;     ///< in which the grey values' variance is taken
-constexpr float MIN_VARIANCE = 0.5F; ///< of grey values: they are whole numbers
 constexpr double FARTHEST = 1.5; ///< matches farther off the row are false ones [px]
 constexpr int CLASSES = 16;      ///< of texture, each with as many windows
 constexpr int FEWEST = 40;       ///< windows of a class

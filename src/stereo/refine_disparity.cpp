@@ -30,10 +30,7 @@ constexpr float MAX_SLOPE = 1.0F; ///< of a plane, disparity over pixels
  * overlap share their errors. The grey values' variance is what the images still differ
  * by. */
 constexpr float PRIOR = 2.0F;
-constexpr float MIN_VARIANCE = 0.5F; ///< of grey values: they are whole numbers
-constexpr float SLOPE_PRIOR = 0.5F;  ///< holds slopes where a window's pixels do not
-constexpr int EXPOSURE_WINDOW = 41;  ///< in which the cameras' exposures agree [px]
-constexpr int NOISE_WINDOW = 15;     ///< in which the grey values' variance is taken
+constexpr float SLOPE_PRIOR = 0.5F; ///< holds slopes where a window's pixels do not
 
 constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
 

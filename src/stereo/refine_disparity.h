@@ -6,6 +6,10 @@
 
 namespace pcl_sq::detail {
 
+constexpr int EXPOSURE_WINDOW = 41;  ///< in which the cameras' exposures agree [px]
+constexpr int NOISE_WINDOW = 15;     ///< in which the grey values' variance is taken
+constexpr float MIN_VARIANCE = 0.5F; ///< of grey values: they are whole numbers
+
 /** \brief Least-squares matching with slanted windows.
  *
  * Block matching compares windows that face the camera: on slants and near outlines its

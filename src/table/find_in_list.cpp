@@ -17,9 +17,9 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr std::size_t SAMPLE = 20000;  ///< points in which planes are looked for
-constexpr std::size_t LOOKED_AT = 300; ///< of them, for noise and spacing
-constexpr int NEIGHBOURS = 24;         ///< through which a plane goes
+constexpr std::size_t SEARCHED = 20000; ///< points in which planes are looked for
+constexpr std::size_t LOOKED_AT = 300;  ///< of them, for noise and spacing
+constexpr int NEIGHBOURS = 24;          ///< through which a plane goes
 /** \brief Gap between two things, over the points' spacing: surfaces seen at a slant of
  * 75 degrees are four times as sparse. */
 constexpr double GAP = 5.0;
@@ -140,7 +140,7 @@ Standing findInList(const CloudPoints& points,
   // by chance, not each how many-th: scanners interleave their lines
   std::mt19937 engine(5489U);
   std::vector<int> drawn = finite;
-  const std::size_t size = std::min(SAMPLE, finite.size());
+  const std::size_t size = std::min(SEARCHED, finite.size());
   for (std::size_t i = 0; i < size; ++i)
     std::swap(drawn[i], drawn[i + engine() % (drawn.size() - i)]);
   drawn.resize(size);

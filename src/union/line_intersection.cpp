@@ -10,7 +10,7 @@ namespace pcl_sq {
 
 namespace {
 
-constexpr int MAX_STEPS = 80;        ///< a tangential line converges linearly
+constexpr int NEWTON_STEPS = 80;     ///< a tangential line converges linearly
 constexpr double ON_SURFACE = 1e-12; ///< G - 1 that counts as on the surface
 
 /** \brief The line in axes in which the superquadric's box is the unit cube. */
@@ -54,7 +54,7 @@ bool approach(const Superquadric& s,
               double limit,
               double& at) {
   const Eigen::Vector3d unit = Eigen::Vector3d::Ones();
-  for (int step = 0; step < MAX_STEPS; ++step) {
+  for (int step = 0; step < NEWTON_STEPS; ++step) {
     const Eigen::Vector3d p = line.origin + at * line.direction;
     const detail::LogGauge g = detail::logGauge(p, unit, s.epsilon1, s.epsilon2);
     const double value = std::exp(g.value);

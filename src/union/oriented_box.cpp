@@ -10,7 +10,7 @@ namespace pcl_sq {
 
 namespace {
 
-constexpr int MAX_STEPS = 64;
+constexpr int GJK_STEPS = 64;
 /** \brief What a bent body may be thickened by in its hollow, over its section's half
  * width: as much as its surface is uncertain. */
 constexpr double HULL = 0.05;
@@ -63,7 +63,7 @@ double gjk(const OrientedBox& box,
   if (v.isZero(0.0))
     return 0.0;
   double lower = 0.0;
-  for (int step = 0; step < MAX_STEPS; ++step) {
+  for (int step = 0; step < GJK_STEPS; ++step) {
     const double length = v.norm();
     const Eigen::Vector3d w = farthest(box, -v) - farthest_of_body(v);
     lower = std::max(lower, v.dot(w) / length);

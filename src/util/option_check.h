@@ -6,6 +6,14 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Leaves a sentence where somebody wants it. \return false, for the caller's
+ * own return */
+inline bool refuse(std::string* why, const std::string& sentence) {
+  if (why)
+    *why = sentence;
+  return false;
+}
+
 /** \brief Collects the first option that is out of range as a sentence. */
 class OptionCheck {
 public:

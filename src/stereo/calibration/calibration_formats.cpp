@@ -58,10 +58,6 @@ void readCamera(const CalibrationDocument& document,
 
 } // namespace
 
-void raiseLoad(const std::string& what) {
-  throw Exception("[pcl_sq::StereoCalibration::load] " + what);
-}
-
 cv::Mat
 matrixOf(const CalibrationEntry& entry, const std::string& name, int rows, int cols) {
   if (entry.numbers.size() !=

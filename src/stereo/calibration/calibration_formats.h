@@ -21,8 +21,6 @@ struct CalibrationContents {
 
 using CalibrationDocuments = std::vector<CalibrationDocument>;
 
-[[noreturn]] void raiseLoad(const std::string& what);
-
 /** \brief A matrix of a shape; a flat list of the same count is one as well.
  * \throws pcl_sq::Exception if the count differs */
 cv::Mat

@@ -10,7 +10,7 @@
 namespace pcl_sq {
 namespace {
 
-std::string textOf(const std::string& file) {
+std::string contentsOf(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()))
@@ -28,7 +28,7 @@ StereoCalibration StereoCalibration::load(const std::vector<std::string>& files,
                                           int height) {
   std::vector<CalibrationText> texts;
   for (const std::string& file : files)
-    texts.push_back({file, textOf(file)});
+    texts.push_back({file, contentsOf(file)});
   return fromText(texts, unit, width, height);
 }
 

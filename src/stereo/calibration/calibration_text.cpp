@@ -10,15 +10,15 @@
 #include <sstream>
 
 namespace pcl_sq::detail {
+
+void raiseLoad(const std::string& what) {
+  throw Exception("[pcl_sq::StereoCalibration::load] " + what);
+}
 namespace {
 
 using Tree = CalibrationTree;
 
 constexpr std::size_t LARGEST_FILE = 1 << 20; // a calibration is small
-
-[[noreturn]] void raise(const std::string& what) {
-  throw Exception("[pcl_sq::StereoCalibration::load] " + what);
-}
 
 /** \brief Numbers between blanks and commas; false if one of the words is none. */
 bool parseNumbers(std::string text, std::vector<double>& numbers) {
@@ -103,9 +103,9 @@ bool asMatrix(const Tree& map, const std::string& path, CalibrationEntry& entry)
   // several channels stand beside each other
   if (!sizes || !(r >= 1.0 && c >= 1.0) || count == 0.0 ||
       std::fmod(count, r * c) != 0.0)
-    raise("the matrix " + path + " does not hold rows x cols numbers (" +
-          std::to_string(entry.numbers.size()) +
-          " were read); correct the calibration file.");
+    raiseLoad("the matrix " + path + " does not hold rows x cols numbers (" +
+              std::to_string(entry.numbers.size()) +
+              " were read); correct the calibration file.");
   entry.rows = static_cast<int>(r);
   entry.cols = static_cast<int>(count / r);
   return true;
@@ -151,8 +151,8 @@ bool readLines(const std::string& text, CalibrationDocument& document) {
     const CalibrationEntry entry = entryOf(value);
     if (entry.numbers.empty() && !value.empty() &&
         std::string("0123456789+-.[").find(value[0]) != std::string::npos)
-      raise("the value of " + name + ", '" + value +
-            "', is not a number; correct the calibration file.");
+      raiseLoad("the value of " + name + ", '" + value +
+                "', is not a number; correct the calibration file.");
     document.add(name, entry);
   }
   return true;
@@ -186,7 +186,7 @@ const CalibrationEntry* CalibrationDocument::find(const std::string& path) const
 
 void CalibrationDocument::add(const std::string& path, CalibrationEntry entry) {
   if (!entries.emplace(path, std::move(entry)).second)
-    raise("'" + file + "' says " + path + " twice; leave out one of the two.");
+    raiseLoad("'" + file + "' says " + path + " twice; leave out one of the two.");
 }
 
 bool CalibrationDocument::hasPrefix(const std::string& prefix) const {
@@ -218,11 +218,11 @@ std::vector<CalibrationDocument> parseCalibrationText(const std::string& text,
   const std::size_t bom = text.rfind("\xef\xbb\xbf", 0) == 0 ? 3 : 0;
   const std::size_t begin = text.find_first_not_of(" \t\r\n", bom);
   if (begin == std::string::npos)
-    raise("'" + file + "' is empty; give a calibration file.");
+    raiseLoad("'" + file + "' is empty; give a calibration file.");
   if (text.size() > LARGEST_FILE || text.find('\0') != std::string::npos)
-    raise("'" + file +
-          "' is no text, or longer than a calibration is; give a "
-          "calibration file.");
+    raiseLoad("'" + file +
+              "' is no text, or longer than a calibration is; give a "
+              "calibration file.");
   const std::string content = text.substr(begin);
   std::vector<Tree> trees;
   if (content[0] == '{')
@@ -232,9 +232,9 @@ std::vector<CalibrationDocument> parseCalibrationText(const std::string& text,
   else if (content[0] != '%' && looksLikeLines(content)) {
     CalibrationDocument document{file, {}};
     if (!readLines(content, document))
-      raise("'" + file +
-            "' has a line that is neither name=value nor a [section]; correct the "
-            "calibration file.");
+      raiseLoad("'" + file +
+                "' has a line that is neither name=value nor a [section]; correct the "
+                "calibration file.");
     return {document};
   } else
     trees = parseYaml(content, file);

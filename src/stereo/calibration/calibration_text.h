@@ -9,6 +9,9 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Refuses a calibration. \throws pcl_sq::Exception */
+[[noreturn]] void raiseLoad(const std::string& what);
+
 /** \brief One value of a calibration file: text, and numbers where it is made of them.
  */
 struct CalibrationEntry {

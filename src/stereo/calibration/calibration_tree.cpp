@@ -2,7 +2,7 @@
 #include "stereo/calibration/calibration_tree.h"
 
 #include "io/json_text.h"
-#include "pcl_sq/exception.h"
+#include "stereo/calibration/calibration_text.h"
 
 #include <boost/property_tree/xml_parser.hpp>
 #include <yaml-cpp/yaml.h>
@@ -17,10 +17,6 @@ namespace {
 constexpr int DEEPEST = 16;
 constexpr std::size_t MOST_NODES = 20000;
 
-[[noreturn]] void raise(const std::string& what) {
-  throw Exception("[pcl_sq::StereoCalibration::load] " + what);
-}
-
 /** \brief Stops what nests or repeats itself without end (YAML's aliases can). */
 struct Bounds {
   const std::string& file;
@@ -28,9 +24,9 @@ struct Bounds {
 
   void enter(int depth) {
     if (depth > DEEPEST || ++nodes > MOST_NODES)
-      raise("'" + file +
-            "' nests or repeats too much for a calibration; give the "
-            "calibration's own file.");
+      raiseLoad("'" + file +
+                "' nests or repeats too much for a calibration; give the "
+                "calibration's own file.");
   }
 };
 
@@ -133,16 +129,17 @@ std::vector<CalibrationTree> parseYaml(const std::string& text,
       if (node.IsNull())
         continue;
       if (!node.IsMap())
-        raise("'" + file +
-              "' is neither YAML, XML or JSON nor lines of name=value; give a "
-              "calibration file.");
+        raiseLoad("'" + file +
+                  "' is neither YAML, XML or JSON nor lines of name=value; give a "
+                  "calibration file.");
       documents.push_back(toTree(node, bounds));
     }
   } catch (const YAML::Exception& error) {
-    raise("'" + file + "' is not valid YAML" +
-          (error.mark.is_null() ? std::string()
-                                : " at line " + std::to_string(error.mark.line + 1)) +
-          "; correct the calibration file.");
+    raiseLoad("'" + file + "' is not valid YAML" +
+              (error.mark.is_null()
+                   ? std::string()
+                   : " at line " + std::to_string(error.mark.line + 1)) +
+              "; correct the calibration file.");
   }
   return documents;
 }
@@ -151,7 +148,7 @@ CalibrationTree parseJsonTree(const std::string& text, const std::string& file) 
   nlohmann::ordered_json json;
   std::string why;
   if (!parseJson(text, json, &why))
-    raise("'" + file + "': " + why + "; correct the calibration file.");
+    raiseLoad("'" + file + "': " + why + "; correct the calibration file.");
   Bounds bounds{file};
   return toTree(json, bounds);
 }
@@ -165,8 +162,8 @@ CalibrationTree parseXml(const std::string& text, const std::string& file) {
   try {
     boost::property_tree::read_xml(in, root);
   } catch (const boost::property_tree::xml_parser_error& error) {
-    raise("'" + file + "' is not valid XML at line " + std::to_string(error.line()) +
-          "; correct the calibration file.");
+    raiseLoad("'" + file + "' is not valid XML at line " +
+              std::to_string(error.line()) + "; correct the calibration file.");
   }
   for (const auto& [name, child] : root)
     if (name != "<xmlcomment>")

@@ -12,7 +12,7 @@
 namespace pcl_sq::detail {
 namespace {
 
-constexpr int LARGEST_CUT =
+constexpr int LARGEST_JOINT_CUT =
     300; ///< longer side of the image that is cut as a whole [px]
 /** \brief Cost of a border between two pixels of one colour, in the unit of ln odds: a
  * pixel of its own has four, and is to be believed where depth and colour agree. */
@@ -191,10 +191,10 @@ cv::Mat cutJointly(const cv::Mat& bgr,
   beyond(drawn).setTo(0);
   const Known known{depth_odds, outside, beyond};
   const int side = std::max(bgr.cols, bgr.rows);
-  if (side <= LARGEST_CUT)
+  if (side <= LARGEST_JOINT_CUT)
     return cutInRounds(bgr, known, rounds);
   // the border is found at a reduced size, and drawn at the full one
-  const double s = double(LARGEST_CUT) / side;
+  const double s = double(LARGEST_JOINT_CUT) / side;
   cv::Mat small, large;
   cv::resize(bgr, small, {}, s, s, cv::INTER_AREA);
   const auto reduced = [&small](const cv::Mat& values) {
