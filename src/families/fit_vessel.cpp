@@ -26,7 +26,8 @@ public:
   VesselFamily(const ViewProblem& problem, const UnitPoints& points, double sigma)
       : least_squares_(problem, points, sigma, problem.planes(sigma, points)) {}
 
-  Vessel fit(const Vessel& start, int iterations) const {
+  Vessel fit(const Vessel& start,
+             int iterations = tuning::fit_vessel::ITERATIONS) const {
     LmLimits limits;
     limits.max_iterations = iterations;
     limits.cost_tolerance = 1e-5;
@@ -161,13 +162,11 @@ std::optional<ShapeCandidate> fromAllRound(const ViewProblem& problem,
   const UnitPoints& points = problem.medium();
   // most vessels are none to within the noise: foot and rim are thicker than the wall
   double own = std::max(sigma, WIDE);
-  vessel = VesselFamily(problem, points, 2.0 * own)
-               .fit(vessel, tuning::fit_vessel::ITERATIONS);
+  vessel = VesselFamily(problem, points, 2.0 * own).fit(vessel);
   for (int round = 0; round < ROUNDS; ++round) {
     lowerRim(points, vessel.model);
     own = std::min(own, scatterOf(points, own, vessel.model));
-    vessel =
-        VesselFamily(problem, points, own).fit(vessel, tuning::fit_vessel::ITERATIONS);
+    vessel = VesselFamily(problem, points, own).fit(vessel);
   }
   const double inside = VesselFamily(problem, points, own).insideShare(vessel.model);
   if (!(vessel.cost < 1e299) || std::min(inside, 1.0 - inside) < BOTH_SIDES ||
@@ -266,18 +265,14 @@ std::optional<ShapeCandidate> fitVessel(const ViewProblem& problem,
     for (const Vessel& v : found)
       if (!(cost(v.model) < most))
         continue; // a solid is nearer to the points
-      else if (const auto c =
-                   fromAllRound(problem,
-                                sigma,
-                                thorough.fit(v, tuning::fit_vessel::ITERATIONS),
-                                *best))
+      else if (const auto c = fromAllRound(problem, sigma, thorough.fit(v), *best))
         if (!chosen || c->bic < chosen->bic)
           chosen = c;
     return chosen;
   }
   found.resize(std::min(found.size(), tuning::fit_vessel::KEPT));
   for (Vessel& v : found)
-    v = thorough.fit(v, tuning::fit_vessel::ITERATIONS);
+    v = thorough.fit(v);
   const Vessel& vessel = *std::min_element(found.begin(), found.end(), cheaperVessel);
   if (!(vessel.cost < 1e299))
     return std::nullopt;
@@ -294,8 +289,7 @@ void fitVesselAgain(const ViewProblem& problem,
   if (!problem.eye())
     sigma = std::min(sigma, scatterOf(points, sigma, chosen.model));
   const Vessel fitted =
-      VesselFamily(problem, points, sigma)
-          .fit({chosen.model, 0.0, chosen.upright}, tuning::fit_vessel::ITERATIONS);
+      VesselFamily(problem, points, sigma).fit({chosen.model, 0.0, chosen.upright});
   chosen.bic += fitted.cost - chosen.cost;
   chosen.cost = fitted.cost;
   chosen.model = fitted.model;
