@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# pcl_sq_units(TARGET [FILES...]): compiles the files of a folder as one, which takes a third
-# of the time of a build from nothing, for headers of PCL and Eigen are most of what a file
-# costs. FILES and those with compiler flags of their own stay by themselves.
-# CMAKE_UNITY_BUILD does the same by absolute paths, with which ccache finds nothing again
-# in another clone.
+# pcl_sq_units(TARGET): compiles the files of a folder as one, which takes a third of the
+# time of a build from nothing, for headers of PCL and Eigen are most of what a file costs.
+# Files with compiler flags of their own stay by themselves. CMAKE_UNITY_BUILD does the
+# same by absolute paths, with which ccache finds nothing again in another clone. Not for
+# archives of which a user wants some files and has not what others link, as Python's.
 function(pcl_sq_units target)
   if(NOT PCL_SQ_UNITS)
     return()
@@ -17,9 +17,7 @@ function(pcl_sq_units target)
     get_filename_component(path "${source}" ABSOLUTE)
     file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${path}")
     string(FIND "${source}" "${PROJECT_BINARY_DIR}" generated)
-    get_filename_component(name "${source}" NAME)
-    if(name IN_LIST ARGN OR options OR definitions OR generated EQUAL 0
-        OR NOT path MATCHES "\\.cpp$")
+    if(options OR definitions OR generated EQUAL 0 OR NOT path MATCHES "\\.cpp$")
       list(APPEND kept "${source}")
       continue()
     endif()
