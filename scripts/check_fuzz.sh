@@ -12,7 +12,7 @@ build="build-fuzz"
 if [ ! -f "$build/build.ninja" ]; then
   CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DPCL_SQ_BUILD_FUZZERS=ON \
     -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DPCL_SQ_BUILD_TESTS=OFF \
-    -DPCL_SQ_BUILD_EXAMPLES=OFF >/dev/null
+    -DPCL_SQ_BUILD_EXAMPLES=OFF -DPCL_SQ_UNITS=OFF >/dev/null
 fi
 ninja -C "$build" pcl_sq_fuzzers
 mkdir -p "$build/findings"
