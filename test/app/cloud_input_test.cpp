@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What people really feed to the programs, up to the model.
 #include "file_bytes.h"
+#include "fit_program.h"
 #include "program.h"
 
 #include "pcl_sq/model_io.h"
@@ -169,4 +170,72 @@ TEST(CloudInput, WhatIsNotUnderstoodIsRefusedByItsName) {
   const std::string odd = sentence("c\xff.xyz", "1 2 \x1b[31m\n");
   EXPECT_EQ(odd.find('\x1b'), std::string::npos);
   EXPECT_EQ(odd.find('\xff'), std::string::npos);
+}
+
+TEST(FitApp, FilesThatAreNoCloudsAreRefusedInOneSentence) {
+  const Folder folder;
+  const std::string good = bottlePcd(500);
+  const auto refuse = [&](const std::string& name, const std::string& bytes) {
+    expectRefusal(folder, {folder.write(name, bytes)});
+  };
+  expectRefusal(folder, {folder / "missing.pcd"});
+  expectRefusal(folder, {folder / ""});
+  for (const std::string extension : {".pcd", ".ply", ".obj", ".xyz"}) {
+    refuse("empty" + extension, "");
+    std::string garbage(5000, '\0');
+    for (std::size_t i = 0; i < garbage.size(); ++i)
+      garbage[i] = char(i * 7919 >> 3);
+    refuse("garbage" + extension, garbage);
+  }
+  const std::string header = good.substr(0, good.find("DATA"));
+  refuse("truncated.pcd", good.substr(0, good.size() / 2));
+  refuse("no_data.pcd", header);
+  refuse("binary.pcd", header + "DATA binary\n" + std::string(100, 'x'));
+  refuse("lzf.pcd", header + "DATA binary_compressed\n" + std::string(100, 'x'));
+  refuse("lzf_tiny.pcd", header + "DATA binary_compressed\n");
+  refuse("kind.pcd", header + "DATA morse\n");
+  std::string lie = replaced(good, "HEIGHT 1\n", "HEIGHT 1000000000\n");
+  refuse("height.pcd", lie);
+  lie = replaced(lie, "POINTS", "#");
+  refuse("height_alone.pcd", lie);
+  refuse("binary_huge.pcd",
+         "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
+         "1000000\nHEIGHT 1000000\nPOINTS 1000000000000\nDATA binary\n1234");
+  refuse("count.pcd", replaced(good, "COUNT 1 1 1", "COUNT 1 1 99999999"));
+  refuse("fields.pcd", replaced(good, "FIELDS x y z", "FIELDS x y q"));
+  refuse("huge.ply",
+         "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nproperty "
+         "float x\nproperty float y\nproperty float z\nend_header\n1234");
+  refuse("short.ply",
+         "ply\nformat ascii 1.0\nelement vertex 4000\nproperty float x\nproperty float "
+         "y\nproperty float z\nend_header\n1 2 3\n");
+  refuse("no_vertices.ply", "ply\nformat ascii 1.0\nend_header\n");
+  refuse("words.xyz", "1 2 3\nfour five six\n");
+}
+
+TEST(FitApp, CloudsWithoutAnObjectAreRefusedInOneSentence) {
+  const Folder folder;
+  const float nan = std::nanf("");
+  const auto refuse = [&](const std::vector<Eigen::Vector3f>& points) {
+    const std::string cloud = folder.write("cloud.pcd", pcdOf(points));
+    for (const std::string decomposition : {"none", "prisms"})
+      for (const std::string fit : {"paper", "full"})
+        expectRefusal(folder, {cloud, "--decomposition", decomposition, "--fit", fit});
+    expectRefusal(folder, {cloud, "--remove-plane"});
+  };
+  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(nan, nan, nan)));
+  for (int n = 1; n <= 3; ++n)
+    refuse(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
+  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
+  std::vector<Eigen::Vector3f> line, plane, far;
+  for (int i = 0; i < 900; ++i) {
+    line.push_back(Eigen::Vector3f(0.001f, 0.002f, 0.003f) * float(i));
+    plane.emplace_back(0.01f * float(i % 30), 0.01f * float(i / 30), 1.0f);
+    far.emplace_back(
+        1e30f * float(i % 7), 1e30f * float(i % 11), -1e30f * float(i % 13));
+  }
+  refuse(line);
+  refuse(plane);
+  const std::string cloud = folder.write("far.pcd", pcdOf(far));
+  expectRefusal(folder, {cloud});
 }

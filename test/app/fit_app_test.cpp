@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bottle_view.h"
+// pcl_sq_fit from the command line to the model file, and what it refuses.
+#include "fit_program.h"
 #include "program.h"
-#include "text.h"
 
 #include "pcl_sq/model_io.h"
 #include "pcl_sq/superquadric.h"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 
 // sanitizers map more memory than any limit allows
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -21,39 +21,6 @@
 
 using namespace pcl_sq;
 using namespace pcl_sq::test;
-
-namespace {
-
-/** \brief The bottle as an ASCII PCD. */
-std::string bottlePcd(std::size_t points = 4000) {
-  const Eigen::Matrix3Xd cloud = visiblePoints(bottle(), points, 0.0005);
-  std::ostringstream text;
-  const std::string n = std::to_string(cloud.cols());
-  text << "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " << n
-       << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << n << "\nDATA ascii\n"
-       << cloud.transpose() << "\n";
-  return text.str();
-}
-
-std::string pcdOf(const std::vector<Eigen::Vector3f>& points) {
-  std::ostringstream text;
-  text << "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
-       << points.size() << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
-       << points.size() << "\nDATA ascii\n";
-  for (const Eigen::Vector3f& p : points)
-    text << p.x() << " " << p.y() << " " << p.z() << "\n";
-  return text.str();
-}
-
-/** \brief The program refuses and leaves nothing behind. */
-void expectRefusal(const Folder& folder,
-                   std::vector<std::string> arguments,
-                   int code = 1) {
-  arguments.insert(arguments.end(), {"-o", folder / "model.json"});
-  test::expectRefusal("pcl_sq_fit", arguments, code, "", &folder);
-}
-
-} // namespace
 
 TEST(FitApp, WritesAModelThatReadsBackWithItsTimes) {
   const Folder folder;
@@ -111,31 +78,6 @@ TEST(FitApp, ConfigFileGivesDefaultsAndTheCommandLineWins) {
   EXPECT_EQ(parts({"--decomposition", "prisms"}), 2u);
   expectRefusal(
       folder, {cloud, "--config", folder.write("bad.toml", "colour = 3\n")}, 2);
-}
-
-TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
-  const Folder folder;
-  const std::string first = folder.write("first.pcd", bottlePcd());
-  const std::string last = folder.write("last.pcd", bottlePcd(2000));
-  const ProgramRun run =
-      runProgram("pcl_sq_fit", {first, folder / "missing.pcd", last, "--jsonl"});
-  EXPECT_EQ(run.code, 1);
-  EXPECT_EQ(run.sentences(), 1) << run.err;
-  std::istringstream lines(run.out);
-  std::string line;
-  for (const std::string& path : {first, last}) {
-    ASSERT_TRUE(std::getline(lines, line));
-    if (path == last) { // the line of the missing cloud is before it
-      EXPECT_NE(line.find("\"error\""), std::string::npos) << line;
-      ASSERT_TRUE(std::getline(lines, line));
-    }
-    ModelFile file;
-    std::string why;
-    ASSERT_TRUE(fromJson(line, file, &why)) << why;
-    EXPECT_EQ(file.input_path, path);
-  }
-  EXPECT_FALSE(std::getline(lines, line));
-  EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
 }
 
 TEST(FitApp, TapersACupAndLeavesACanAlone) {
@@ -233,74 +175,6 @@ TEST(FitApp, BadCommandLinesEndWithTwo) {
   EXPECT_NE(runProgram("pcl_sq_fit", {"--version"}).out.find("0."), std::string::npos);
 }
 
-TEST(FitApp, FilesThatAreNoCloudsAreRefusedInOneSentence) {
-  const Folder folder;
-  const std::string good = bottlePcd(500);
-  const auto refuse = [&](const std::string& name, const std::string& bytes) {
-    expectRefusal(folder, {folder.write(name, bytes)});
-  };
-  expectRefusal(folder, {folder / "missing.pcd"});
-  expectRefusal(folder, {folder / ""});
-  for (const std::string extension : {".pcd", ".ply", ".obj", ".xyz"}) {
-    refuse("empty" + extension, "");
-    std::string garbage(5000, '\0');
-    for (std::size_t i = 0; i < garbage.size(); ++i)
-      garbage[i] = char(i * 7919 >> 3);
-    refuse("garbage" + extension, garbage);
-  }
-  const std::string header = good.substr(0, good.find("DATA"));
-  refuse("truncated.pcd", good.substr(0, good.size() / 2));
-  refuse("no_data.pcd", header);
-  refuse("binary.pcd", header + "DATA binary\n" + std::string(100, 'x'));
-  refuse("lzf.pcd", header + "DATA binary_compressed\n" + std::string(100, 'x'));
-  refuse("lzf_tiny.pcd", header + "DATA binary_compressed\n");
-  refuse("kind.pcd", header + "DATA morse\n");
-  std::string lie = replaced(good, "HEIGHT 1\n", "HEIGHT 1000000000\n");
-  refuse("height.pcd", lie);
-  lie = replaced(lie, "POINTS", "#");
-  refuse("height_alone.pcd", lie);
-  refuse("binary_huge.pcd",
-         "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH "
-         "1000000\nHEIGHT 1000000\nPOINTS 1000000000000\nDATA binary\n1234");
-  refuse("count.pcd", replaced(good, "COUNT 1 1 1", "COUNT 1 1 99999999"));
-  refuse("fields.pcd", replaced(good, "FIELDS x y z", "FIELDS x y q"));
-  refuse("huge.ply",
-         "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nproperty "
-         "float x\nproperty float y\nproperty float z\nend_header\n1234");
-  refuse("short.ply",
-         "ply\nformat ascii 1.0\nelement vertex 4000\nproperty float x\nproperty float "
-         "y\nproperty float z\nend_header\n1 2 3\n");
-  refuse("no_vertices.ply", "ply\nformat ascii 1.0\nend_header\n");
-  refuse("words.xyz", "1 2 3\nfour five six\n");
-}
-
-TEST(FitApp, CloudsWithoutAnObjectAreRefusedInOneSentence) {
-  const Folder folder;
-  const float nan = std::nanf("");
-  const auto refuse = [&](const std::vector<Eigen::Vector3f>& points) {
-    const std::string cloud = folder.write("cloud.pcd", pcdOf(points));
-    for (const std::string decomposition : {"none", "prisms"})
-      for (const std::string fit : {"paper", "full"})
-        expectRefusal(folder, {cloud, "--decomposition", decomposition, "--fit", fit});
-    expectRefusal(folder, {cloud, "--remove-plane"});
-  };
-  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(nan, nan, nan)));
-  for (int n = 1; n <= 3; ++n)
-    refuse(std::vector<Eigen::Vector3f>(n, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
-  refuse(std::vector<Eigen::Vector3f>(500, Eigen::Vector3f(0.1f, 0.2f, 0.9f)));
-  std::vector<Eigen::Vector3f> line, plane, far;
-  for (int i = 0; i < 900; ++i) {
-    line.push_back(Eigen::Vector3f(0.001f, 0.002f, 0.003f) * float(i));
-    plane.emplace_back(0.01f * float(i % 30), 0.01f * float(i / 30), 1.0f);
-    far.emplace_back(
-        1e30f * float(i % 7), 1e30f * float(i % 11), -1e30f * float(i % 13));
-  }
-  refuse(line);
-  refuse(plane);
-  const std::string cloud = folder.write("far.pcd", pcdOf(far));
-  expectRefusal(folder, {cloud});
-}
-
 TEST(FitApp, RegionsThatMissAndGridsThatAreTooFineAreRefused) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());
@@ -320,6 +194,7 @@ TEST(FitApp, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
 }
 
 #ifndef SANITIZED
+
 TEST(FitApp, TooLittleMemoryIsAnErrorAndNotAKill) {
   const Folder folder;
   const std::string cloud = folder.write("bottle.pcd", bottlePcd());

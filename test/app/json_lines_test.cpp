@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_sq_fit --jsonl, its order, failures and interruption.
-#include "bottle_view.h"
+#include "fit_program.h"
 #include "program.h"
+
+#include "pcl_sq/model_io.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -137,4 +139,29 @@ TEST(JsonLines, OneCloudThatNeverEndsHoldsBackAFewOthersOnly) {
   EXPECT_TRUE(waitForLines(out, 40)) << "the others wait for the one that never ends";
   EXPECT_EQ(program.end(SIGTERM), SIGTERM);
   EXPECT_EQ(linesOf(out).size(), 40u);
+}
+
+TEST(FitApp, JsonLinesComeInTheOrderOfTheCloudsAndOneBadCloudSpoilsNoOther) {
+  const Folder folder;
+  const std::string first = folder.write("first.pcd", bottlePcd());
+  const std::string last = folder.write("last.pcd", bottlePcd(2000));
+  const ProgramRun run =
+      runProgram("pcl_sq_fit", {first, folder / "missing.pcd", last, "--jsonl"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.sentences(), 1) << run.err;
+  std::istringstream lines(run.out);
+  std::string line;
+  for (const std::string& path : {first, last}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    if (path == last) { // the line of the missing cloud is before it
+      EXPECT_NE(line.find("\"error\""), std::string::npos) << line;
+      ASSERT_TRUE(std::getline(lines, line));
+    }
+    ModelFile file;
+    std::string why;
+    ASSERT_TRUE(fromJson(line, file, &why)) << why;
+    EXPECT_EQ(file.input_path, path);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+  EXPECT_EQ(runProgram("pcl_sq_fit", {first, last}).code, 2);
 }

@@ -16,13 +16,6 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Estimation = ObjectSurfaceEstimation<pcl::PointXYZ>;
 
-ViewScene canScene() {
-  ViewScene scene;
-  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
-  scene.render(0.001);
-  return scene;
-}
-
 Cloud::Ptr organizedCloud(const ViewScene& scene) {
   auto cloud =
       pcl::make_shared<Cloud>(std::uint32_t(scene.width), std::uint32_t(scene.height));

@@ -3,6 +3,7 @@
 
 #include "command_line/app.h"
 #include "input/shape.h"
+#include "text.h"
 
 #include <algorithm>
 #include <cstring>
@@ -18,14 +19,6 @@ std::string bytesOf(T value, bool big_endian = false) {
   if (big_endian)
     std::reverse(bytes.begin(), bytes.end());
   return bytes;
-}
-
-inline std::string
-replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
 }
 
 /** \brief What the reader says about bytes that it refuses; empty if it reads them. */

@@ -110,4 +110,12 @@ struct ViewScene {
   }
 };
 
+/** \brief A can on a table. */
+inline ViewScene canScene(double noise = 0.001) {
+  ViewScene scene;
+  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
+  scene.render(noise);
+  return scene;
+}
+
 } // namespace pcl_sq::test

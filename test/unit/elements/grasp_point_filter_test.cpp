@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which points are on the surface of a model, and what is told of each.
 #include "pcl_sq/grasp_point_filter.h"
 
+#include "clouds.h"
 #include "random_superquadric.h"
 
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;
-using pcl_sq::test::Random;
+using namespace pcl_sq::test;
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 namespace {
@@ -108,4 +110,73 @@ TEST(GraspPointFilter, NegativeSigmaIsRefusedAndAnEmptyModelDescribesNothing) {
   filter.describe({0}, points);
   EXPECT_TRUE(points.empty());
   EXPECT_EQ(surfaceNoise({}, Eigen::Matrix3Xd::Zero(3, 5)), 0.0);
+}
+
+TEST(GraspPointFilter, DistancesAreMetric) {
+  MultiSuperquadric sphere;
+  sphere.parts.resize(1);
+  sphere.parts[0].semi_axes.setConstant(0.05);
+  Cloud::Ptr cloud(new Cloud);
+  for (const float r : {0.0f, 0.0445f, 0.0455f, 0.05f, 0.0545f, 0.0555f, 1e30f})
+    cloud->push_back({0.0f, r, 0.0f});
+  GraspPointFilter<pcl::PointXYZ> filter;
+  filter.setModel(sphere);
+  filter.setInputCloud(cloud);
+  pcl::Indices kept;
+  filter.setDistanceThreshold(0.005);
+  EXPECT_EQ(filter.getMetric(), SurfaceMetric::DISTANCE);
+  filter.filter(kept);
+  EXPECT_EQ(kept, (pcl::Indices{2, 3, 4}));
+  filter.setGaugeTolerance(0.05); // 2.5 mm of this sphere
+  filter.filter(kept);
+  EXPECT_EQ(kept, (pcl::Indices{3}));
+}
+
+TEST(GraspPointFilter, SurfacesInsideOfAnotherPartDoNotCount) {
+  MultiSuperquadric pair;
+  pair.parts.resize(2);
+  pair.parts[1].center.x() = 0.5;
+  Cloud::Ptr cloud(new Cloud);
+  cloud->push_back({1.0f, 0, 0});  // on the first, inside of the second
+  cloud->push_back({-1.0f, 0, 0}); // on the first alone
+  for (const bool metric : {false, true}) {
+    GraspPointFilter<pcl::PointXYZ> filter;
+    filter.setModel(pair);
+    if (metric)
+      filter.setDistanceThreshold(0.05);
+    filter.setInputCloud(cloud);
+    pcl::Indices kept;
+    filter.filter(kept);
+    EXPECT_EQ(kept, pcl::Indices{1});
+  }
+}
+
+TEST(GraspPointFilter, WithoutAModelNoPointIsOnASurface) {
+  const Quiet quiet;
+  GraspPointFilter<pcl::PointXYZ> filter(true);
+  filter.setInputCloud(randomCloud(10, 3));
+  Cloud output;
+  filter.filter(output);
+  EXPECT_TRUE(output.empty());
+  EXPECT_EQ(filter.getRemovedIndices()->size(), 10u);
+}
+
+TEST(GraspPointFilter, RefusesBadSettingsAndKeepsTheOldOnes) {
+  const Quiet quiet;
+  GraspPointFilter<pcl::PointXYZ> filter;
+  EXPECT_EQ(filter.getGaugeTolerance(), 0.05);
+  for (const double bad : {-0.1, std::nan(""), HUGE_VAL}) {
+    filter.setGaugeTolerance(bad);
+    filter.setDistanceThreshold(bad);
+  }
+  EXPECT_EQ(filter.getGaugeTolerance(), 0.05);
+  EXPECT_EQ(filter.getDistanceThreshold(), 0.005);
+  EXPECT_EQ(filter.getMetric(), SurfaceMetric::GAUGE);
+  MultiSuperquadric model;
+  model.parts.resize(2);
+  filter.setModel(model);
+  model.parts[1].semi_axes.x() = -1.0;
+  model.parts.resize(3);
+  filter.setModel(model);
+  EXPECT_EQ(filter.getModel().size(), 2u);
 }

@@ -11,17 +11,6 @@
 using namespace pcl_sq;
 using namespace pcl_sq::test;
 
-namespace {
-
-ViewScene canScene() {
-  ViewScene scene;
-  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
-  scene.render(0.001);
-  return scene;
-}
-
-} // namespace
-
 TEST(ObserveObject, PixelsWithoutDepthCarryNoInformation) {
   ViewScene scene = canScene();
   ViewOptions view;

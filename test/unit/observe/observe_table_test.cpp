@@ -13,13 +13,6 @@ using namespace pcl_sq::test;
 
 namespace {
 
-ViewScene canScene(double noise) {
-  ViewScene scene;
-  scene.addUpright({0.04, 0.04, 0.07}, 0.2, 1.0, 0.07);
-  scene.render(noise);
-  return scene;
-}
-
 /** \brief Replaces the table by another plane where its points are asked to go. */
 void replaceTable(ViewScene& scene,
                   const TableModel& other,
