@@ -2,8 +2,7 @@
 #include "scene/evaluation.h"
 
 #include "scene/noise.h"
-
-#include "util/parallel_for.h"
+#include "scene/threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -205,7 +204,7 @@ ShapeFigures evaluateShape(const MultiSuperquadric& model,
         return a.volume() < b.volume();
       });
   figures.axis_error_deg = axisError(largest->rotation, shape.rotation, shape.symmetry);
-  const int count = detail::threadCount(threads);
+  const int count = threadCount(threads);
   measureVolumes(model, mesh, shape, samples, count, figures);
   figures.model_to_truth = measure(sampleUnion(model, samples), count, [&](auto& p) {
     return mesh.distance(shape.rotation.transpose() * (p - shape.translation));
@@ -227,9 +226,8 @@ CloudFigures evaluateCloud(const MultiSuperquadric& model,
   list.reserve(figures.points);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     list.push_back(points.col(i));
-  figures.distance = measure(list, detail::threadCount(threads), [&](auto& p) {
-    return model.euclideanDistance(p);
-  });
+  figures.distance = measure(
+      list, threadCount(threads), [&](auto& p) { return model.euclideanDistance(p); });
   return figures;
 }
 

@@ -2,8 +2,7 @@
 #include "scene/scene_renderer.h"
 
 #include "scene/noise.h"
-
-#include "util/parallel_for.h"
+#include "scene/threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +158,7 @@ RenderedImage render(const Scene& scene,
   image.height = camera.height;
   image.bgr.resize(3 * static_cast<std::size_t>(camera.width) *
                    static_cast<std::size_t>(camera.height));
-#pragma omp parallel for schedule(dynamic, 4) num_threads(detail::threadCount(threads))
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const auto pixel = static_cast<std::uint64_t>(v) * camera.width + u;
@@ -197,7 +196,7 @@ RenderedTruth renderTruth(const Scene& scene,
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   truth.depth.resize(count);
   truth.mask.resize(count);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(detail::threadCount(threads))
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount(threads))
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
       const auto pixel =

@@ -8,18 +8,13 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Threads of a loop; 0 stands for one per core. */
-inline int threadCount(unsigned int threads) {
-  return threads > 0 ? int(threads) : omp_get_num_procs();
-}
-
 /** \brief Calls work(i) for i in [0, count), in any order and by several threads at
  * once; inside of another parallel loop by one. An exception is handed on after all are
  * done. \param[in] threads 0: one per core, but fewer on a busy machine: a thread that
  * waits for its turn there holds up the others for longer than it would have helped */
 template <typename Work>
 void parallelFor(std::size_t count, unsigned int threads, const Work& work) {
-  const int n_threads = threadCount(threads);
+  const int n_threads = threads > 0 ? int(threads) : omp_get_num_procs();
   const int dynamic = omp_get_dynamic();
   omp_set_dynamic(threads == 0 ? 1 : dynamic);
   std::exception_ptr error; // must not leave the parallel region by itself
