@@ -1,20 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs each fuzz target of test/fuzz (libFuzzer with AddressSanitizer) for some seconds:
+# Runs each fuzz target of test/fuzz (libFuzzer with the sanitizers) for some seconds:
 #   check_fuzz.sh [SECONDS]
 # The inputs are the same in each run as far as it comes.
-# What ends one is left in build-fuzz/findings.
+# What ends one is left in build-dev/findings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
-build="build-fuzz"
-./scripts/install_deps.sh clang libclang-rt-14-dev llvm-14
-if [ ! -f "$build/build.ninja" ]; then
-  CC=clang CXX=clang++ cmake -S . -B "$build" -G Ninja -DPCL_SQ_BUILD_FUZZERS=ON \
-    -DCMAKE_CXX_FLAGS_RELEASE="-O1 -g1" -DPCL_SQ_BUILD_TESTS=OFF \
-    -DPCL_SQ_BUILD_EXAMPLES=OFF -DPCL_SQ_UNITS=OFF >/dev/null
-fi
-ninja -C "$build" pcl_sq_fuzzers
+build="build-dev"
+./scripts/install_deps.sh clang libclang-rt-14-dev libomp-14-dev llvm-14
+[ -f "$build/build.ninja" ] || cmake --preset dev >/dev/null
+cmake --build --preset dev --target pcl_sq_fuzzers
 mkdir -p "$build/findings"
 
 # inputs beyond 10 s or 1 GiB are findings too

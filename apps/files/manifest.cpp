@@ -71,12 +71,12 @@ std::vector<std::string> withoutDone(const std::vector<std::string>& names,
   std::vector<std::string> left;
   for (const std::string& name : names) {
     // as it stands in a line: what is not UTF-8 is replaced there
-    const std::string written =
+    const std::string in_line =
         nlohmann::json::parse(
             nlohmann::json(name).dump(
                 -1, ' ', false, nlohmann::json::error_handler_t::replace))
             .get<std::string>();
-    const auto done = lines.done.find(written);
+    const auto done = lines.done.find(in_line);
     if (done != lines.done.end() && done->second > 0)
       --done->second;
     else

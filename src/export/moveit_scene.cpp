@@ -2,6 +2,7 @@
 // MoveIt's planning scene as text: what PlanningScene::loadGeometryFromStream() reads.
 #include "export/robot_object.h"
 #include "export/xml_text.h"
+#include "union/shortest_turn.h"
 
 namespace pcl_sq {
 
@@ -43,8 +44,7 @@ std::string tableText(const std::array<double, 4>& table,
   CollisionShape board;
   board.kind = CollisionShape::BOX;
   board.half_sizes = 0.5 * Eigen::Vector3d(SIDE, SIDE, THICKNESS);
-  board.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)
-                       .toRotationMatrix();
+  board.rotation = detail::shortestTurn(Eigen::Vector3d::UnitZ(), normal);
   return "* " + name + "\n" +
          poseText(foot - 0.5 * THICKNESS * normal, board.rotation) + "1\n" +
          shapeText(board) +

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/part_surface.h"
 
+#include "union/shortest_turn.h"
+
 namespace pcl_sq::detail {
 
 ShownSurface shownSurface(const Superquadric& part) {
@@ -49,7 +51,7 @@ ModelFile asOneModel(const SceneFile& scene) {
 }
 
 Eigen::Quaterniond toYUp(const Eigen::Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY());
+  return Eigen::Quaterniond(shortestTurn(up, Eigen::Vector3d::UnitY()));
 }
 
 } // namespace pcl_sq::detail

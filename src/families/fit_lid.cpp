@@ -34,7 +34,7 @@ Lid lidOf(const UnitPoints& points, const Superquadric& body, double sigma) {
     lid.points.push_back(i);
     depths.push_back(a3 - q.z());
   }
-  if (double(depths.size()) < LEAST * double(points.size())) {
+  if (double(depths.size()) < LEAST_SHARE * double(points.size())) {
     lid.points.clear();
     return lid;
   }

@@ -196,7 +196,7 @@ inline constexpr double DEEPEST = 0.25;
 /// [radius] on the lid, clear of the rim; chosen
 inline constexpr double WITHIN = 0.85;
 /// [1] of the points, that are a lid: fewer may be a mug's inside; chosen
-inline constexpr double LEAST = 0.05;
+inline constexpr double LEAST_SHARE = 0.05;
 /// [1] largest e1 of a rim, which is an edge; a box's
 inline constexpr double EDGE = 0.2;
 /// [rounds] of lid and body in turn; budget

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view_problem/shape_spaces.h"
 
+#include "union/shortest_turn.h"
+
 namespace pcl_sq::detail {
 
 Superquadric upright(const Superquadric& m, int k, const Eigen::Vector3d& up) {
   Superquadric s = m;
   const Eigen::Vector3d axis = m.rotation.col(k);
   const Eigen::Vector3d target = axis.dot(up) < 0.0 ? Eigen::Vector3d(-up) : up;
-  s.rotation =
-      Eigen::Quaterniond::FromTwoVectors(axis, target).toRotationMatrix() * m.rotation;
+  s.rotation = shortestTurn(axis, target) * m.rotation;
   return s;
 }
 

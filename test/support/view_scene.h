@@ -5,6 +5,7 @@
 #include "pcl_sq/multi_superquadric.h"
 #include "pcl_sq/object_view.h"
 #include "random_superquadric.h"
+#include "union/shortest_turn.h"
 
 #include <limits>
 
@@ -61,8 +62,7 @@ struct ViewScene {
   }
   /** \brief Rotation whose z axis is the table's normal. */
   Eigen::Matrix3d upright(double yaw = 0.3) const {
-    return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), table.normal)
-               .toRotationMatrix() *
+    return detail::shortestTurn(Eigen::Vector3d::UnitZ(), table.normal) *
            Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   }
   /** \brief Adds a part whose axis stands on the table, its centre at a height [m]. */

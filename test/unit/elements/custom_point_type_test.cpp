@@ -15,15 +15,11 @@
 #include <pcl/register_point_struct.h>
 #include <pcl/sample_consensus/ransac.h>
 
-namespace {
-
 struct ThermalPoint {
   PCL_ADD_POINT4D;
   float kelvin;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
-
-} // namespace
 
 POINT_CLOUD_REGISTER_POINT_STRUCT(
     ThermalPoint, (float, x, x)(float, y, y)(float, z, z)(float, kelvin, kelvin))

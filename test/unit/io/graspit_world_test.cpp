@@ -3,6 +3,8 @@
 // normals.
 #include "pcl_sq/graspit_export.h"
 
+#include "union/shortest_turn.h"
+
 #include "mesh_errors.h"
 
 #include <gtest/gtest.h>
@@ -90,8 +92,8 @@ TEST(GraspitWorld, TheTableIsJustBelowTheLowestVertex) {
   options.table_normal = Eigen::Vector3d(0.2, -0.9, -0.4).normalized();
   MultiSuperquadric model = bottle();
   for (Superquadric& s : model.parts) { // upright on the table
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-        Eigen::Vector3d::UnitZ(), options.table_normal);
+    const Eigen::Matrix3d turn =
+        detail::shortestTurn(Eigen::Vector3d::UnitZ(), options.table_normal);
     s.center = turn * s.center;
     s.rotation = turn * s.rotation;
   }

@@ -212,7 +212,7 @@ TEST(ObserveObject, SettingsOutOfRangeAreRefusedWithASentence) {
   view.mask_correlation = 0.5;
   EXPECT_FALSE(view.isValid(&why));
   view = {};
-  view.table = TableModel{Eigen::Vector3d(0, 0, 2), 0.0};
+  view.table = TableModel{{Eigen::Vector3d(0, 0, 2), 0.0}};
   EXPECT_FALSE(view.isValid(&why));
   view = {};
   view.camera = PinholeCamera();
