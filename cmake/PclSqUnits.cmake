@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # pcl_sq_units(TARGET): compiles the files of a folder as one, which takes a third of the
 # time of a build from nothing, for headers of PCL and Eigen are most of what a file costs.
-# Files with compiler flags of their own stay by themselves. CMAKE_UNITY_BUILD does the
-# same by absolute paths, with which ccache finds nothing again in another clone. Not for
-# archives of which a user wants some files and has not what others link, as Python's.
+# Files with compiler flags of their own stay by themselves, and those with CMake's
+# SKIP_UNITY_BUILD_INCLUSION. CMAKE_UNITY_BUILD does the same by absolute paths, with which
+# ccache finds nothing again in another clone.
 function(pcl_sq_units target)
   if(NOT PCL_SQ_UNITS)
     return()
@@ -14,10 +14,11 @@ function(pcl_sq_units target)
   foreach(source IN LISTS sources)
     get_source_file_property(options "${source}" COMPILE_OPTIONS)
     get_source_file_property(definitions "${source}" COMPILE_DEFINITIONS)
+    get_source_file_property(alone "${source}" SKIP_UNITY_BUILD_INCLUSION)
     get_filename_component(path "${source}" ABSOLUTE)
     file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${path}")
     string(FIND "${source}" "${PROJECT_BINARY_DIR}" generated)
-    if(options OR definitions OR generated EQUAL 0 OR NOT path MATCHES "\\.cpp$")
+    if(options OR definitions OR alone OR generated EQUAL 0 OR NOT path MATCHES "\\.cpp$")
       list(APPEND kept "${source}")
       continue()
     endif()

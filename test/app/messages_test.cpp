@@ -2,6 +2,7 @@
 // What the user is told besides the result: notes, sizes, failures in plain words.
 #include "bottle_view.h"
 #include "program.h"
+#include "text.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -39,14 +40,6 @@ std::string postXyz() {
         points.col(n++) =
             turn * Eigen::Vector3d(-0.02 + 0.002 * i, -0.02 + 0.002 * k, z);
   return xyzOf(points);
-}
-
-int count(const std::string& text, const std::string& what) {
-  int found = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos;
-       at = text.find(what, at + 1))
-    ++found;
-  return found;
 }
 
 } // namespace

@@ -40,9 +40,9 @@ std::pair<int, int> sizeOf(const std::string& path) {
 const std::pair<int, int> SMALL{200, 150};
 
 /** \brief The program refuses and leaves nothing behind. */
-void expectRefusal(const Folder& folder,
-                   const std::vector<std::string>& arguments,
-                   int code) {
+void expectNoPicture(const Folder& folder,
+                     const std::vector<std::string>& arguments,
+                     int code) {
   test::expectRefusal("pcl_sq_snapshot", arguments, code, "", &folder);
 }
 
@@ -123,40 +123,41 @@ TEST(SnapshotApp, BadCommandLinesEndWithTwo) {
   const Folder folder;
   const std::string model = folder.write("bottle.json", bottleJson());
   const std::string output = folder / "out.png";
-  expectRefusal(folder, {}, 2);
-  expectRefusal(folder, {"-o", output}, 2); // nothing to show
-  expectRefusal(folder, {model}, 2);        // nowhere to
-  expectRefusal(folder, {model, "-o", folder / "out.jpg"}, 2);
+  expectNoPicture(folder, {}, 2);
+  expectNoPicture(folder, {"-o", output}, 2); // nothing to show
+  expectNoPicture(folder, {model}, 2);        // nowhere to
+  expectNoPicture(folder, {model, "-o", folder / "out.jpg"}, 2);
   for (const char* size :
        {"0x0", "640", "640x", "x480", "640x480x3", "-640x480", "9999x9", "axb", ""})
-    expectRefusal(folder, {model, "-o", output, "--size", size}, 2);
+    expectNoPicture(folder, {model, "-o", output, "--size", size}, 2);
   for (const char* view : {"bottom", "Iso", ""})
-    expectRefusal(folder, {model, "-o", output, "--view", view}, 2);
+    expectNoPicture(folder, {model, "-o", output, "--view", view}, 2);
   for (const char* count : {"0", "-1", "1001", "many"})
-    expectRefusal(folder, {model, "-o", output, "--turntable", count}, 2);
+    expectNoPicture(folder, {model, "-o", output, "--turntable", count}, 2);
   for (const char* opacity : {"-0.1", "1.1", "nan", "half"})
-    expectRefusal(folder, {model, "-o", output, "--opacity", opacity}, 2);
+    expectNoPicture(folder, {model, "-o", output, "--opacity", opacity}, 2);
   for (const char* up : {"w", "0,0,0", "1,2", "1,2,3,4", "nan,0,0", "--y"})
-    expectRefusal(folder, {model, "-o", output, "--up", up}, 2);
-  expectRefusal(folder, {model, "-o", output, "--veiw", "iso"}, 2);
+    expectNoPicture(folder, {model, "-o", output, "--up", up}, 2);
+  expectNoPicture(folder, {model, "-o", output, "--veiw", "iso"}, 2);
 }
 
 TEST(SnapshotApp, FailuresEndWithOneAndLeaveNothing) {
   const Folder folder;
   const std::string model = folder.write("bottle.json", bottleJson());
   const std::string output = folder / "out.png";
-  expectRefusal(folder, {folder / "missing.json", "-o", output}, 1);
-  expectRefusal(folder, {folder.write("no.json", "{\"schema\": 1}"), "-o", output}, 1);
+  expectNoPicture(folder, {folder / "missing.json", "-o", output}, 1);
+  expectNoPicture(
+      folder, {folder.write("no.json", "{\"schema\": 1}"), "-o", output}, 1);
   ModelFile empty;
   const std::string nothing = folder.write("empty.json", toJson(empty));
-  expectRefusal(folder, {nothing, "-o", output}, 1);
-  expectRefusal(folder, {model, "--cloud", folder / "no.pcd", "-o", output}, 1);
-  expectRefusal(folder, {model, "-o", folder / "no/such/folder/out.png"}, 1);
+  expectNoPicture(folder, {nothing, "-o", output}, 1);
+  expectNoPicture(folder, {model, "--cloud", folder / "no.pcd", "-o", output}, 1);
+  expectNoPicture(folder, {model, "-o", folder / "no/such/folder/out.png"}, 1);
   ModelFile behind;
   behind.model = bottle();
   behind.model.parts[0].center.z() = -1.0;
   const std::string unseen = folder.write("behind.json", toJson(behind));
-  expectRefusal(folder, {unseen, "--view", "camera", "-o", output}, 1);
+  expectNoPicture(folder, {unseen, "--view", "camera", "-o", output}, 1);
 }
 
 TEST(SnapshotApp, WithoutDisplayAndXvfbOneSentenceNamesTheCure) {

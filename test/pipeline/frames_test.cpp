@@ -4,6 +4,7 @@
 #include "pcl_sq/object_surface_estimation.h"
 #include "pcl_sq/tabletop_segmentation.h"
 
+#include "clouds.h"
 #include "table_scene.h"
 
 #include <pcl/point_types.h>
@@ -16,17 +17,6 @@ using namespace pcl_sq::test;
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-
-Cloud::Ptr cloudOf(const Eigen::Matrix3Xf& points, int width, int height) {
-  auto cloud = pcl::make_shared<Cloud>();
-  cloud->resize(std::size_t(points.cols()));
-  cloud->width = std::uint32_t(width);
-  cloud->height = std::uint32_t(height);
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    (*cloud)[std::size_t(i)].getVector3fMap() = points.col(i);
-  cloud->is_dense = false;
-  return cloud;
-}
 
 struct Fitted {
   MultiSuperquadric model;
@@ -72,13 +62,13 @@ void expectCan(const Fitted& fitted, double share) {
 TEST(Frames, RemovalNeverEatsTheFoot) {
   for (const int coarser : {1, 2}) {
     const TableScene scene = TableScene().can().coarser(coarser);
-    expectCan(fit(cloudOf(scene.inCamera(), scene.width, scene.height)), 0.03);
+    expectCan(fit(organized(scene.inCamera(), scene.width, scene.height)), 0.03);
   }
 }
 
 TEST(Frames, PlaneRemovalGivesWhatTheFitFindsByItself) {
   const TableScene scene = TableScene().can();
-  const Cloud::Ptr cloud = cloudOf(scene.inCamera(), scene.width, scene.height);
+  const Cloud::Ptr cloud = organized(scene.inCamera(), scene.width, scene.height);
   const Fitted removed = fit(cloud);
   ObjectSurfaceEstimation<pcl::PointXYZ> estimation;
   estimation.setOptions(EstimationOptions::best());
@@ -92,8 +82,8 @@ TEST(Frames, PlaneRemovalGivesWhatTheFitFindsByItself) {
 
 TEST(Frames, AnImageInARobotsFrameIsSeenByItsCamera) {
   const TableScene scene = TableScene().can();
-  const Fitted here = fit(cloudOf(scene.inCamera(), scene.width, scene.height));
-  const Fitted room = fit(cloudOf(scene.inRoom(), scene.width, scene.height));
+  const Fitted here = fit(organized(scene.inCamera(), scene.width, scene.height));
+  const Fitted room = fit(organized(scene.inRoom(), scene.width, scene.height));
   expectCan(room, 0.03);
   EXPECT_EQ(room.report.view.outline, OutlineSource::DEPTH);
   EXPECT_TRUE(room.report.view.viewpoint_known);
@@ -109,7 +99,7 @@ TEST(Frames, AnImageInARobotsFrameIsSeenByItsCamera) {
 TEST(Frames, AListIsSeenFromItsViewpoint) {
   const TableScene scene = TableScene().can();
   const Eigen::Matrix3Xf list = TableScene::listOf(scene.inRoom());
-  const Cloud::Ptr cloud = cloudOf(list, int(list.cols()), 1);
+  const Cloud::Ptr cloud = organized(list, int(list.cols()), 1);
   cloud->sensor_origin_.head<3>() = scene.camera.center.cast<float>();
   const Fitted fitted = fit(cloud);
   expectCan(fitted, 0.05);
@@ -120,7 +110,7 @@ TEST(Frames, NoViewpointIsNotTheOrigin) {
   const TableScene scene = TableScene().can();
   Eigen::Matrix3Xf list = TableScene::listOf(scene.inRoom());
   list.colwise() += Eigen::Vector3f(0.8f, 0.0f, 0.75f);
-  const Fitted fitted = fit(cloudOf(list, int(list.cols()), 1));
+  const Fitted fitted = fit(organized(list, int(list.cols()), 1));
   EXPECT_FALSE(fitted.report.view.viewpoint_known);
   ASSERT_EQ(fitted.model.size(), 1u);
   EXPECT_GT(fitted.table.normal.z(), 0.999);

@@ -3,13 +3,12 @@
 // has it; and the one default of class and programs.
 #include "pcl_sq/object_surface_estimation.h"
 
+#include "clouds.h"
 #include "view_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <pcl/point_types.h>
-
-#include <numeric>
 
 using namespace pcl_sq;
 using namespace pcl_sq::test;
@@ -30,21 +29,8 @@ const ViewScene& scene() {
   return instance;
 }
 
-Cloud::Ptr cloudOf(const Eigen::Matrix3Xf& points, int width, int height) {
-  auto cloud = pcl::make_shared<Cloud>(std::uint32_t(width), std::uint32_t(height));
-  for (std::size_t i = 0; i < cloud->size(); ++i)
-    (*cloud)[i].getVector3fMap() = points.col(Eigen::Index(i));
-  return cloud;
-}
-
 Cloud::Ptr image() {
-  return cloudOf(scene().points, scene().width, scene().height);
-}
-
-pcl::IndicesPtr allOf(const Cloud& cloud) {
-  auto all = pcl::make_shared<pcl::Indices>(cloud.size());
-  std::iota(all->begin(), all->end(), 0);
-  return all;
+  return organized(scene().points, scene().width, scene().height);
 }
 
 pcl::IndicesPtr underMask() {
@@ -108,7 +94,7 @@ TEST(ObjectChoice, IndicesOfTheWholeCloudMakeTheWholeCloudTheObject) {
   const auto cloud = image();
   Estimation estimation;
   estimation.setInputCloud(cloud);
-  estimation.setIndices(allOf(*cloud));
+  estimation.setIndices(allIndices(cloud->size()));
   const EstimationReport report = estimate(estimation);
   EXPECT_EQ(report.view.pixels.count(), int(cloud->size()))
       << "table and can were given as one object";
@@ -126,7 +112,7 @@ TEST(ObjectChoice, WithABoxIndicesSayWhereToLookAndTheBoxTakenBackWhatItIs) {
   const auto cloud = image();
   Estimation estimation;
   estimation.setInputCloud(cloud);
-  estimation.setIndices(allOf(*cloud));
+  estimation.setIndices(allIndices(cloud->size()));
   estimation.setRegion(around());
   EXPECT_GT(shareOfTheCan(estimate(estimation)), 0.95);
   estimation.unsetRegion();
@@ -148,11 +134,11 @@ TEST(ObjectChoice, OfABareCloudAllPointsAreTheObjectWithAndWithoutIndices) {
   Eigen::Matrix3Xf points(3, Eigen::Index(underMask()->size()));
   for (std::size_t i = 0; i < underMask()->size(); ++i)
     points.col(Eigen::Index(i)) = scene().points.col((*underMask())[i]);
-  const auto cloud = cloudOf(points, int(points.cols()), 1);
+  const auto cloud = organized(points, int(points.cols()), 1);
   Estimation without, with;
   without.setInputCloud(cloud);
   with.setInputCloud(cloud);
-  with.setIndices(allOf(*cloud));
+  with.setIndices(allIndices(cloud->size()));
   EXPECT_EQ(estimate(without).object_indices.size(), cloud->size());
   EXPECT_EQ(estimate(with).object_indices, estimate(without).object_indices);
 }

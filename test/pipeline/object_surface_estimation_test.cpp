@@ -16,11 +16,11 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 /** \brief The paper's chain. */
-struct Estimation : ObjectSurfaceEstimation<pcl::PointXYZ> {
-  Estimation() { setOptions(EstimationOptions::paper()); }
+struct PaperEstimation : ObjectSurfaceEstimation<pcl::PointXYZ> {
+  PaperEstimation() { setOptions(EstimationOptions::paper()); }
 };
 
-MultiSuperquadric estimate(Estimation& estimation) {
+MultiSuperquadric estimate(PaperEstimation& estimation) {
   MultiSuperquadric model;
   EXPECT_TRUE(estimation.estimate(model)) << estimation.getReport().failure;
   return model;
@@ -28,7 +28,7 @@ MultiSuperquadric estimate(Estimation& estimation) {
 
 std::string failureOf(const Cloud::Ptr& cloud,
                       const EstimationOptions& options = EstimationOptions::paper()) {
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(cloud);
   estimation.setOptions(options);
   MultiSuperquadric model = bottle();
@@ -42,7 +42,7 @@ std::string failureOf(const Cloud::Ptr& cloud,
 
 TEST(ObjectSurfaceEstimation, BottleBecomesBodyAndNeck) {
   const MultiSuperquadric truth = bottle();
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(toCloud(visiblePoints(truth, 20000, 0.0005)));
   const MultiSuperquadric model = estimate(estimation);
   ASSERT_EQ(model.size(), 2u);
@@ -58,7 +58,7 @@ TEST(ObjectSurfaceEstimation, BottleBecomesBodyAndNeck) {
 
 TEST(ObjectSurfaceEstimation, SeveralPartsFitBetterThanOne) {
   const auto cloud = toCloud(visiblePoints(bottle(), 20000, 0.0005));
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(cloud);
   const MultiSuperquadric several = estimate(estimation);
   EstimationOptions options = EstimationOptions::paper();
@@ -71,7 +71,7 @@ TEST(ObjectSurfaceEstimation, SeveralPartsFitBetterThanOne) {
 }
 
 TEST(ObjectSurfaceEstimation, ResultIsTheSameToTheLastBitForAnyNumberOfThreads) {
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(toCloud(visiblePoints(bottle(), 20000, 0.001)));
   std::string first;
   for (const unsigned threads : {1u, 2u, 3u, 8u, 0u}) {
@@ -93,7 +93,7 @@ TEST(ObjectSurfaceEstimation, UsesOnlyTheGivenIndicesAndReportsThemInTheCloud) {
     indices->push_back(int(scene->size()));
     scene->push_back((*object)[i]);
   }
-  Estimation alone, within;
+  PaperEstimation alone, within;
   alone.setInputCloud(object);
   within.setInputCloud(scene);
   within.setIndices(indices);
@@ -111,7 +111,7 @@ TEST(ObjectSurfaceEstimation, UsesOnlyTheGivenIndicesAndReportsThemInTheCloud) {
 
 TEST(ObjectSurfaceEstimation, PointOrderDoesNotMatterBeyondRounding) {
   Eigen::Matrix3Xd points = visiblePoints(bottle(), 8000, 0.001);
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(toCloud(points));
   const MultiSuperquadric forward = estimate(estimation);
   estimation.setInputCloud(toCloud(points.rowwise().reverse()));
@@ -126,7 +126,7 @@ TEST(ObjectSurfaceEstimation, PointOrderDoesNotMatterBeyondRounding) {
 TEST(ObjectSurfaceEstimation, RegionLeavesOutWhatLiesOutside) {
   const auto cloud = toCloud(visiblePoints(bottle(), 8000));
   cloud->push_back(pcl::PointXYZ(0, 0, 3));
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(cloud);
   RoiBox region;
   region.min = {-0.2, -0.3, 0.5};
@@ -139,7 +139,7 @@ TEST(ObjectSurfaceEstimation, RegionLeavesOutWhatLiesOutside) {
 }
 
 TEST(ObjectSurfaceEstimation, ReportNamesEveryStageWithItsTime) {
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(toCloud(visiblePoints(bottle(), 5000)));
   estimate(estimation);
   std::vector<std::string> names;
@@ -181,7 +181,7 @@ TEST(ObjectSurfaceEstimation, HugeCoordinatesAndHugeGridsAreRefusedOrSurvived) {
   EXPECT_NE(failureOf(cloud, options).find("voxels"), std::string::npos);
   for (auto& p : *cloud)
     p.x *= 1e30f;
-  Estimation estimation;
+  PaperEstimation estimation;
   estimation.setInputCloud(cloud);
   MultiSuperquadric model;
   const bool found = estimation.estimate(model);
@@ -191,7 +191,7 @@ TEST(ObjectSurfaceEstimation, HugeCoordinatesAndHugeGridsAreRefusedOrSurvived) {
 }
 
 TEST(ObjectSurfaceEstimation, InvalidOptionsAreRefusedAndTheOldOnesKept) {
-  Estimation estimation;
+  PaperEstimation estimation;
   EstimationOptions options = EstimationOptions::paper();
   options.grasp_threshold = -1.0;
   estimation.setOptions(options);

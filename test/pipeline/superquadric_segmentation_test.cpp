@@ -2,6 +2,7 @@
 // Several things, one after the other: RANSAC, take the inliers out, again.
 #include "pcl_sq/superquadric_segmentation.h"
 
+#include "clouds.h"
 #include "surface_cloud.h"
 
 #include <gtest/gtest.h>
@@ -49,13 +50,6 @@ pcl::IndicesPtr without(const pcl::Indices& all, pcl::Indices taken) {
   return rest;
 }
 
-pcl::IndicesPtr allOf(const Cloud& cloud) {
-  auto all = pcl::make_shared<pcl::Indices>();
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    all->push_back(int(i));
-  return all;
-}
-
 /** \brief The thing whose place is nearest; fails if size or place are wrong. */
 std::size_t expectOneOf(const std::vector<Superquadric>& things,
                         const Superquadric& found) {
@@ -82,7 +76,7 @@ SuperquadricSegmentation<Point> segmentationOf(const Cloud::Ptr& cloud) {
 void expectEachThingOnce(const std::vector<Superquadric>& things,
                          SuperquadricSegmentation<Point> segmentation,
                          const Cloud& cloud) {
-  pcl::IndicesPtr rest = allOf(cloud);
+  pcl::IndicesPtr rest = allIndices(cloud.size());
   std::vector<int> found(things.size(), 0);
   for (std::size_t k = 0; k < things.size(); ++k) {
     segmentation.setIndices(rest);

@@ -26,7 +26,7 @@ using test::EnvironmentVariable;
 
 namespace {
 
-SnapshotRenderer ballRenderer() {
+SnapshotRenderer ballOnDisplay() {
   SnapshotOptions options;
   options.width = options.height = 64;
   SnapshotRenderer renderer(options);
@@ -73,13 +73,13 @@ std::vector<pid_t> waitForChildrenOf(pid_t parent) {
 
 TEST(Display, NoneIsNeeded) {
   const EnvironmentVariable none("DISPLAY", nullptr);
-  EXPECT_TRUE(showsABall(ballRenderer().render()));
+  EXPECT_TRUE(showsABall(ballOnDisplay().render()));
 }
 
 TEST(Display, OneThatDoesNotAnswerIsReplaced) {
   for (const char* name : {":31999", "", ":", "no display", "nosuchhost.invalid:0"}) {
     const EnvironmentVariable dead("DISPLAY", name);
-    EXPECT_TRUE(showsABall(ballRenderer().render())) << "'" << name << "'";
+    EXPECT_TRUE(showsABall(ballOnDisplay().render())) << "'" << name << "'";
   }
 }
 
@@ -88,14 +88,14 @@ TEST(Display, OneThatAnswersIsUsedAndNoOtherStarted) {
   const EnvironmentVariable alive("DISPLAY", server.name().c_str());
   // a second Xvfb could not be found
   const EnvironmentVariable nowhere("PATH", "/nonexistent");
-  EXPECT_TRUE(showsABall(ballRenderer().render()));
+  EXPECT_TRUE(showsABall(ballOnDisplay().render()));
 }
 
 TEST(Display, WithoutAnyTheSentenceNamesTheCure) {
   const EnvironmentVariable none("DISPLAY", nullptr);
   const EnvironmentVariable nowhere("PATH", "/nonexistent");
   try {
-    ballRenderer().render();
+    ballOnDisplay().render();
     FAIL() << "a picture without a display";
   } catch (const Exception& error) {
     const std::string sentence = error.what();
@@ -110,12 +110,12 @@ TEST(Display, AServerThatEndsAtOnceIsAnErrorAndNotAHang) {
   std::filesystem::permissions(folder / "Xvfb", std::filesystem::perms::owner_all);
   const EnvironmentVariable none("DISPLAY", nullptr);
   const EnvironmentVariable broken("PATH", (folder / "").c_str());
-  EXPECT_THROW(ballRenderer().render(), Exception);
+  EXPECT_THROW(ballOnDisplay().render(), Exception);
 }
 
 TEST(Display, PrivateServersEndWithTheirPictureAndLeaveNoZombie) {
   const EnvironmentVariable none("DISPLAY", nullptr);
-  ballRenderer().render();
+  ballOnDisplay().render();
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
 }
@@ -134,7 +134,7 @@ TEST(Display, ManyProcessesMayTakePicturesAtOnce) {
   for (int i = 0; i < 4; ++i) {
     const pid_t child = fork();
     if (child == 0)
-      _exit(showsABall(ballRenderer().render()) ? 0 : 1);
+      _exit(showsABall(ballOnDisplay().render()) ? 0 : 1);
     children.push_back(child);
   }
   for (const pid_t child : children) {
@@ -150,7 +150,7 @@ TEST(Display, ManyThreadsMayTakePicturesAtOnce) {
   std::vector<std::thread> threads;
   for (int& result : seen)
     threads.emplace_back(
-        [&result] { result = showsABall(ballRenderer().render()) ? 1 : 0; });
+        [&result] { result = showsABall(ballOnDisplay().render()) ? 1 : 0; });
   for (std::thread& thread : threads)
     thread.join();
   EXPECT_EQ(seen, std::vector<int>(4, 1));
@@ -161,7 +161,7 @@ TEST(Display, AServerEndsWhenItsProgramIsKilled) {
   if (child == 0) {
     const EnvironmentVariable none("DISPLAY", nullptr);
     for (;;)
-      ballRenderer().render();
+      ballOnDisplay().render();
   }
   const std::vector<pid_t> servers = waitForChildrenOf(child);
   kill(child, SIGKILL);

@@ -45,7 +45,7 @@ cv::Vec2f at(const cv::Mat& image, const Eigen::Vector2d& pixel) {
   return value.at<cv::Vec2f>(0, 0);
 }
 
-std::string refusal(const Texts& texts, double unit = 1.0) {
+std::string refusalOfTexts(const Texts& texts, double unit = 1.0) {
   try {
     (void)StereoCalibration::fromText(texts, unit);
   } catch (const Exception& e) {
@@ -54,9 +54,9 @@ std::string refusal(const Texts& texts, double unit = 1.0) {
   return "nothing was refused";
 }
 
-void expectRefusal(const std::string& text, const std::string& reason) {
-  EXPECT_NE(refusal({{"file", text}}).find(reason), std::string::npos)
-      << "wanted '" << reason << "', got '" << refusal({{"file", text}}) << "'";
+void expectFormatRefusal(const std::string& text, const std::string& reason) {
+  EXPECT_NE(refusalOfTexts({{"file", text}}).find(reason), std::string::npos)
+      << "wanted '" << reason << "', got '" << refusalOfTexts({{"file", text}}) << "'";
 }
 
 } // namespace
@@ -95,7 +95,7 @@ TEST(CalibrationFormats, ZedsSectionIsChosenByTheImagesSize) {
   EXPECT_LT(cv::norm(got.first, wanted.first, cv::NORM_INF), 1e-2);
   EXPECT_LT(cv::norm(got.second, wanted.second, cv::NORM_INF), 1e-2);
   EXPECT_NEAR(c.getIntrinsics().baseline, cv::norm(rig.T), 1e-9);
-  EXPECT_NE(refusal(texts).find("HD, VGA"), std::string::npos); // which one?
+  EXPECT_NE(refusalOfTexts(texts).find("HD, VGA"), std::string::npos); // which one?
   try {
     (void)StereoCalibration::fromText(texts, 0.001, vga.width, vga.height);
     ADD_FAILURE() << "a unit for a file that has its own";
@@ -198,25 +198,29 @@ TEST(CalibrationFormats, FisheyesAreRectifiedToWhatCvFisheyeProjects) {
 TEST(CalibrationFormats, WhatIsNotUnderstoodIsRefusedByItsName) {
   const Rig rig;
   const std::string good = rig.lists("K1", "K2", "D1", "D2", "R", "T");
-  expectRefusal(good + "Z1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n", "'Z1' (3 x 3)");
-  expectRefusal("distortion_model: omnidirectional\n" + good, "'omnidirectional'");
-  expectRefusal(good + "xi: 1.2\n", "omnidirectional");
-  expectRefusal("distortion_model: equidistant\n" +
-                    replaced(good, rig.list(rig.D1), "0, 0, 0, 0, 0"),
-                "equidistant (fisheye) model has 4");
-  expectRefusal(replaced(good, rig.list(rig.D1), "0, 0, 0, 0, 0, 0"), "6 coefficients");
-  expectRefusal(rig.kalibr("fov"), "'fov'");
-  expectRefusal(replaced(rig.kalibr(), "camera_model: pinhole", "camera_model: omni"),
-                "'omni'");
-  expectRefusal("f: 500\ncx: 199.5\ncy: 149.5\nbaseline: .06\nk1: -0.2\n",
-                "distortion k1");
-  expectRefusal("f: 500\ncx: 199.5\ncy: 149.5\nbaseline: .06\nD1: [-0.2, 0, 0, 0]\n",
-                "D1 is given without");
-  expectRefusal(good + "M1: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n", "contradict");
-  expectRefusal(good + "K1: 3\n", "K1 twice");
-  expectRefusal(rig.cameraInfo(rig.K1, rig.D1, rig.R1, rig.P1), "describes one camera");
-  expectRefusal(replaced(good, rig.list(rig.T), "-80, 0, 0"), "not plausible");
-  expectRefusal(replaced(good, "\nT: ", "\n# "), "T is missing");
+  expectFormatRefusal(good + "Z1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n", "'Z1' (3 x 3)");
+  expectFormatRefusal("distortion_model: omnidirectional\n" + good,
+                      "'omnidirectional'");
+  expectFormatRefusal(good + "xi: 1.2\n", "omnidirectional");
+  expectFormatRefusal("distortion_model: equidistant\n" +
+                          replaced(good, rig.list(rig.D1), "0, 0, 0, 0, 0"),
+                      "equidistant (fisheye) model has 4");
+  expectFormatRefusal(replaced(good, rig.list(rig.D1), "0, 0, 0, 0, 0, 0"),
+                      "6 coefficients");
+  expectFormatRefusal(rig.kalibr("fov"), "'fov'");
+  expectFormatRefusal(
+      replaced(rig.kalibr(), "camera_model: pinhole", "camera_model: omni"), "'omni'");
+  expectFormatRefusal("f: 500\ncx: 199.5\ncy: 149.5\nbaseline: .06\nk1: -0.2\n",
+                      "distortion k1");
+  expectFormatRefusal(
+      "f: 500\ncx: 199.5\ncy: 149.5\nbaseline: .06\nD1: [-0.2, 0, 0, 0]\n",
+      "D1 is given without");
+  expectFormatRefusal(good + "M1: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n", "contradict");
+  expectFormatRefusal(good + "K1: 3\n", "K1 twice");
+  expectFormatRefusal(rig.cameraInfo(rig.K1, rig.D1, rig.R1, rig.P1),
+                      "describes one camera");
+  expectFormatRefusal(replaced(good, rig.list(rig.T), "-80, 0, 0"), "not plausible");
+  expectFormatRefusal(replaced(good, "\nT: ", "\n# "), "T is missing");
 }
 
 TEST(CalibrationFormats, RefusesTextThatNestsOrRepeatsWithoutEnd) {
@@ -224,12 +228,12 @@ TEST(CalibrationFormats, RefusesTextThatNestsOrRepeatsWithoutEnd) {
     std::string deep = bracket[0] == '{' ? "" : "P1: ";
     for (int i = 0; i < 40000; ++i)
       deep += bracket;
-    expectRefusal(deep, "file");
+    expectFormatRefusal(deep, "file");
   }
   std::string xml;
   for (int i = 0; i < 40000; ++i)
     xml += "<a>";
-  expectRefusal("<?xml version=\"1.0\"?>" + xml, "nests");
+  expectFormatRefusal("<?xml version=\"1.0\"?>" + xml, "nests");
   std::string laughs = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string old = "*a" + std::to_string(i - 1);
@@ -238,7 +242,7 @@ TEST(CalibrationFormats, RefusesTextThatNestsOrRepeatsWithoutEnd) {
       laughs += ", " + old;
     laughs += "]\n";
   }
-  expectRefusal(laughs, "repeats too much");
+  expectFormatRefusal(laughs, "repeats too much");
 }
 
 TEST(CalibrationFormats, WhatIsAssumedIsSaid) {

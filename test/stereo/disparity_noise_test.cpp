@@ -13,7 +13,7 @@ using namespace pcl_sq;
 
 namespace {
 
-constexpr int WIDTH = 400, HEIGHT = 300;
+constexpr int COLUMNS = 400, ROWS = 300;
 constexpr double DISPARITY = 24.0;
 
 struct Errors {
@@ -23,25 +23,25 @@ struct Errors {
 /** \brief A plane across the optical axis, seen with some noise of the grey values. */
 Errors errorsOf(double noise) {
   cv::RNG random(3);
-  cv::Mat texture(HEIGHT, WIDTH + 64, CV_32F);
+  cv::Mat texture(ROWS, COLUMNS + 64, CV_32F);
   random.fill(texture, cv::RNG::NORMAL, 0.0, 1.0);
   cv::GaussianBlur(texture, texture, {0, 0}, 1.5);
   cv::Scalar mean, deviation;
   cv::meanStdDev(texture, mean, deviation);
   texture = 128.0 + (25.0 / deviation[0]) * texture;
   const auto image = [&](double shift) {
-    cv::Mat part(HEIGHT, WIDTH, CV_32F), grain(HEIGHT, WIDTH, CV_32F), result;
-    texture(cv::Rect(static_cast<int>(shift), 0, WIDTH, HEIGHT)).copyTo(part);
+    cv::Mat part(ROWS, COLUMNS, CV_32F), grain(ROWS, COLUMNS, CV_32F), result;
+    texture(cv::Rect(static_cast<int>(shift), 0, COLUMNS, ROWS)).copyTo(part);
     random.fill(grain, cv::RNG::NORMAL, 0.0, noise);
     cv::Mat(part + grain).convertTo(result, CV_8U);
     return result;
   };
   StereoIntrinsics k;
   k.fx = k.fy = 400.0;
-  k.cx = 0.5 * WIDTH;
-  k.cy = 0.5 * HEIGHT;
-  k.width = WIDTH;
-  k.height = HEIGHT;
+  k.cx = 0.5 * COLUMNS;
+  k.cy = 0.5 * ROWS;
+  k.width = COLUMNS;
+  k.height = ROWS;
   k.baseline = 0.1;
   StereoReprojector reprojector(StereoCalibration::fromRectified(k));
   StereoOptions options;
@@ -49,8 +49,8 @@ Errors errorsOf(double noise) {
   reprojector.setOptions(options);
   const StereoResult result = reprojector.compute(image(0.0), image(DISPARITY));
   std::vector<double> measured, actual;
-  for (int v = 20; v < HEIGHT - 20; ++v)
-    for (int u = 60; u < WIDTH - 20; ++u)
+  for (int v = 20; v < ROWS - 20; ++v)
+    for (int u = 60; u < COLUMNS - 20; ++u)
       if (const float d = result.disparity.at<float>(v, u); !std::isnan(d)) {
         measured.push_back(double(result.disparity_sigma.at<float>(v, u)));
         actual.push_back(std::abs(double(d) - DISPARITY));

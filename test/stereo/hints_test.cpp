@@ -13,7 +13,7 @@ using namespace pcl_sq::test;
 
 namespace {
 
-const std::string DATA = PCL_SQ_TEST_DATA;
+const std::string REAL_DATA = PCL_SQ_TEST_DATA;
 
 /** \brief An object in a real pair and a hint for it. */
 struct Hint {
@@ -33,7 +33,7 @@ const Hint HINTS[] = {{"Mug", "adirondack", {340, 110, 58, 58}, 360, 145},
 class RealHints : public ::testing::TestWithParam<Hint> {
 protected:
   void SetUp() override {
-    const std::string folder = DATA + "/stereo/" + GetParam().pair + "/";
+    const std::string folder = REAL_DATA + "/stereo/" + GetParam().pair + "/";
     if (!std::filesystem::exists(folder))
       GTEST_SKIP() << "no data in " << folder;
     image_ = cv::imread(folder + "im0.png");
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Data,
                          [](const auto& test) { return test.param.name; });
 
 TEST(DepthHint, AClickOnABoxOfManyColoursGivesMoreOfItThanOneColour) {
-  const std::string folder = DATA + "/clouds/rgbd_cheezit/";
+  const std::string folder = REAL_DATA + "/clouds/rgbd_cheezit/";
   if (!std::filesystem::exists(folder))
     GTEST_SKIP() << "no data in " << folder;
   CameraIntrinsics k;

@@ -31,7 +31,7 @@ cv::Mat noise(int type, int rows = 24, int cols = 32) {
   return image;
 }
 
-std::string refusal(const std::string& bytes) {
+std::string refusalOfImage(const std::string& bytes) {
   try {
     (void)app::decodeImage(bytes, "x", AS_IT_IS);
   } catch (const app::Failure& e) {
@@ -87,17 +87,17 @@ TEST(ImageFile, APfmIsThreeNumbersAndItsDataOrIsRefusedBeforeADecoderSeesIt) {
 }
 
 TEST(ImageFile, WhatIsNoImageOrCutOffOrHugeIsRefusedInOneSentence) {
-  EXPECT_NE(refusal("").find("is empty"), std::string::npos);
-  EXPECT_NE(refusal("{\"a\": 1}").find("is no PNG"), std::string::npos);
-  EXPECT_NE(refusal("Pf\n30000 30000\n-1.0\n").find("ends too early"),
+  EXPECT_NE(refusalOfImage("").find("is empty"), std::string::npos);
+  EXPECT_NE(refusalOfImage("{\"a\": 1}").find("is no PNG"), std::string::npos);
+  EXPECT_NE(refusalOfImage("Pf\n30000 30000\n-1.0\n").find("ends too early"),
             std::string::npos);
-  EXPECT_NE(refusal("P5\n40000000000 4\n255\n").find("64 megapixels"),
+  EXPECT_NE(refusalOfImage("P5\n40000000000 4\n255\n").find("64 megapixels"),
             std::string::npos);
   const std::string png = encoded(noise(CV_8UC3), ".png");
-  EXPECT_NE(refusal(png.substr(0, png.size() / 2)).find("ends too early"),
+  EXPECT_NE(refusalOfImage(png.substr(0, png.size() / 2)).find("ends too early"),
             std::string::npos);
   const std::string jpg = encoded(noise(CV_8UC3), ".jpg");
-  EXPECT_NE(refusal(jpg.substr(0, jpg.size() / 2)).find("ends too early"),
+  EXPECT_NE(refusalOfImage(jpg.substr(0, jpg.size() / 2)).find("ends too early"),
             std::string::npos);
 }
 
@@ -106,7 +106,8 @@ TEST(ImageFile, WhatOpenCvWouldTakeForDicomIsRefused) {
   std::string bytes = "Pf\n6 6\n-1\n";
   bytes.resize(128, '\0');
   bytes += std::string("DICM3   OB\xff\0\n", 13);
-  EXPECT_NE(refusal(bytes).find("DICOM"), std::string::npos) << refusal(bytes);
+  EXPECT_NE(refusalOfImage(bytes).find("DICOM"), std::string::npos)
+      << refusalOfImage(bytes);
 }
 
 TEST(ImageFile, ChangedFilesAreRefusedOrDecodedAndNobodyElseSpeaks) {

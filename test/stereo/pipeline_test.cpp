@@ -28,7 +28,7 @@ cv::Mat moved(const cv::Mat& image, int x, int y) {
   return result;
 }
 
-double overlap(const cv::Mat& a, const cv::Mat& b) {
+double sharedPart(const cv::Mat& a, const cv::Mat& b) {
   return cv::countNonZero(a & b) / double(cv::countNonZero(a | b));
 }
 
@@ -61,7 +61,7 @@ TEST(StereoPipeline, LooksOnlyAroundTheLastOutlineWhereFramesFollow) {
   EXPECT_LT(window.width * window.height, s.left.total());
   EXPECT_EQ(window.width, second.view.stereo.left.cols);
   const cv::Rect there(window.x, window.y, window.width, window.height);
-  EXPECT_GT(overlap(second.view.segment.mask, first.view.segment.mask(there)), 0.95);
+  EXPECT_GT(sharedPart(second.view.segment.mask, first.view.segment.mask(there)), 0.95);
   const double size = s.object.box().sizes().norm();
   EXPECT_LT((centerOf(second) - centerOf(first)).norm(), 0.03 * size);
 }
@@ -93,7 +93,7 @@ TEST(StereoPipeline, FollowsAnObjectThatMoves) {
     cv::Mat whole = cv::Mat::zeros(s.left.size(), CV_8U);
     next.view.segment.mask.copyTo(
         whole(cv::Rect(window.x, window.y, window.width, window.height)));
-    EXPECT_GT(overlap(whole, moved(first.view.segment.mask, x, y)), 0.93);
+    EXPECT_GT(sharedPart(whole, moved(first.view.segment.mask, x, y)), 0.93);
   }
 }
 
@@ -107,7 +107,7 @@ TEST(StereoPipeline, LooksAnewWhereTheSceneIsAnotherOne) {
   ASSERT_TRUE(pipeline.process(s.left, s.right, object)) << object.failure;
   ASSERT_TRUE(pipeline.process(other.left, other.right, object)) << object.failure;
   EXPECT_TRUE(object.view.stereo.window.empty());
-  EXPECT_GT(overlap(object.view.segment.mask, other.mask), 0.8);
+  EXPECT_GT(sharedPart(object.view.segment.mask, other.mask), 0.8);
 }
 
 TEST(StereoPipeline, LooksAnewWhereTheThingHasOtherColours) {

@@ -13,7 +13,7 @@ using namespace pcl_sq::test;
 
 namespace {
 
-constexpr int WIDTH = 320, HEIGHT = 240;
+constexpr int LINE = 320, LINES = 240;
 
 struct Pair {
   cv::Mat left, right, truth;
@@ -25,7 +25,7 @@ Pair makePair(const std::function<double(double, double)>& disparity,
               double contrast = 30.0) {
   constexpr int FINE = 16, MARGIN = 64;
   cv::RNG random(7);
-  cv::Mat texture(HEIGHT, FINE * (WIDTH + 2 * MARGIN), CV_32F);
+  cv::Mat texture(LINES, FINE * (LINE + 2 * MARGIN), CV_32F);
   random.fill(texture, cv::RNG::NORMAL, 0.0, 1.0);
   cv::GaussianBlur(texture, texture, {0, 0}, 1.2 * FINE, 1.2);
   cv::Scalar mean, deviation;
@@ -35,10 +35,10 @@ Pair makePair(const std::function<double(double, double)>& disparity,
     return texture.at<float>(v, static_cast<int>(std::lround(FINE * (u + MARGIN))));
   };
   Pair pair;
-  pair.truth.create(HEIGHT, WIDTH, CV_32F);
-  cv::Mat left(HEIGHT, WIDTH, CV_32F), right(HEIGHT, WIDTH, CV_32F);
-  for (int v = 0; v < HEIGHT; ++v)
-    for (int u = 0; u < WIDTH; ++u) {
+  pair.truth.create(LINES, LINE, CV_32F);
+  cv::Mat left(LINES, LINE, CV_32F), right(LINES, LINE, CV_32F);
+  for (int v = 0; v < LINES; ++v)
+    for (int u = 0; u < LINE; ++u) {
       const double d = disparity(u, v);
       pair.truth.at<float>(v, u) = static_cast<float>(d);
       left.at<float>(v, u) = sample(u - d, v) + float(random.gaussian(2.0));
@@ -55,10 +55,10 @@ cv::Mat disparityOf(const Pair& pair, bool refine, StereoMatcher matcher) {
   options.refine = refine;
   StereoIntrinsics k;
   k.fx = k.fy = 400.0;
-  k.cx = WIDTH / 2;
-  k.cy = HEIGHT / 2;
-  k.width = WIDTH;
-  k.height = HEIGHT;
+  k.cx = LINE / 2;
+  k.cy = LINES / 2;
+  k.width = LINE;
+  k.height = LINES;
   k.baseline = 0.1;
   StereoReprojector reprojector(StereoCalibration::fromRectified(k));
   reprojector.setOptions(options);
@@ -68,7 +68,7 @@ cv::Mat disparityOf(const Pair& pair, bool refine, StereoMatcher matcher) {
 /** \brief Median error, away from the image's border. */
 double medianError(const cv::Mat& disparity, const cv::Mat& truth) {
   const cv::Mat inner(disparity.size(), CV_8U, cv::Scalar(0));
-  inner(cv::Rect(40, 10, WIDTH - 60, HEIGHT - 20)).setTo(255);
+  inner(cv::Rect(40, 10, LINE - 60, LINES - 20)).setTo(255);
   return compareDisparity(disparity, truth, inner).median;
 }
 
@@ -106,9 +106,9 @@ TEST_P(Refine, LeansLessTowardsWholePixelsThanTheMatcher) {
 TEST_P(Refine, ExposureOfOneCameraDoesNotMatter) {
   Pair pair = makePair(slant);
   const double same = medianError(disparityOf(pair, true, GetParam()), pair.truth);
-  cv::Mat ramp(HEIGHT, WIDTH, CV_32F); // an offset, and vignetting
-  for (int v = 0; v < HEIGHT; ++v)
-    for (int u = 0; u < WIDTH; ++u)
+  cv::Mat ramp(LINES, LINE, CV_32F); // an offset, and vignetting
+  for (int v = 0; v < LINES; ++v)
+    for (int u = 0; u < LINE; ++u)
       ramp.at<float>(v, u) = 12.0F + 0.05F * float(u);
   cv::Mat brighter;
   pair.right.convertTo(brighter, CV_32F);
@@ -120,8 +120,8 @@ TEST_P(Refine, ExposureOfOneCameraDoesNotMatter) {
 TEST_P(Refine, KeepsTheStepBetweenTwoSurfaces) {
   const Pair pair = makePair([](double u, double) { return u < 160.0 ? 14.0 : 20.0; });
   const cv::Mat d = disparityOf(pair, true, GetParam());
-  for (int v = 20; v < HEIGHT - 20; ++v)
-    for (int u = 50; u < WIDTH - 30; ++u) {
+  for (int v = 20; v < LINES - 20; ++v)
+    for (int u = 50; u < LINE - 30; ++u) {
       const float x = d.at<float>(v, u);
       if (!std::isnan(x) && std::abs(u - 160) > 12) {
         ASSERT_NEAR(x, pair.truth.at<float>(v, u), 0.75) << u << ' ' << v;
@@ -143,8 +143,8 @@ TEST_P(Refine, ResultIsTheSameForAnyNumberOfThreads) {
   cv::setNumThreads(4);
   const cv::Mat four = disparityOf(pair, true, GetParam());
   cv::setNumThreads(threads);
-  for (int v = 0; v < HEIGHT; ++v)
-    for (int u = 0; u < WIDTH; ++u) {
+  for (int v = 0; v < LINES; ++v)
+    for (int u = 0; u < LINE; ++u) {
       const float a = one.at<float>(v, u), b = four.at<float>(v, u);
       ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << u << ' ' << v;
     }

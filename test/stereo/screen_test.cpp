@@ -9,13 +9,13 @@ using namespace pcl_sq;
 
 namespace {
 
-constexpr int WIDTH = 320, HEIGHT = 200;
-const cv::Rect THING(120, 40, 120, 120); ///< 1.15 m away
-const cv::Rect BOARD(0, 30, 150, 140);   ///< darker, 1.06 to 1.09 m
+constexpr int SCREEN_WIDTH = 320, SCREEN_HEIGHT = 200;
+const cv::Rect FRAMED(120, 40, 120, 120); ///< 1.15 m away
+const cv::Rect BOARD(0, 30, 150, 140);    ///< darker, 1.06 to 1.09 m
 
 cv::Mat image() {
-  cv::Mat gray(HEIGHT, WIDTH, CV_8U, cv::Scalar(150));
-  gray(THING).setTo(150);
+  cv::Mat gray(SCREEN_HEIGHT, SCREEN_WIDTH, CV_8U, cv::Scalar(150));
+  gray(FRAMED).setTo(150);
   gray(BOARD).setTo(70);
   cv::Mat noise(gray.size(), CV_8U), bgr;
   cv::theRNG().state = 7;
@@ -26,11 +26,11 @@ cv::Mat image() {
 }
 
 pcl::PointCloud<pcl::PointXYZRGB> cloud() {
-  pcl::PointCloud<pcl::PointXYZRGB> points(WIDTH, HEIGHT);
-  for (int v = 0; v < HEIGHT; ++v)
-    for (int u = 0; u < WIDTH; ++u) {
+  pcl::PointCloud<pcl::PointXYZRGB> points(SCREEN_WIDTH, SCREEN_HEIGHT);
+  for (int v = 0; v < SCREEN_HEIGHT; ++v)
+    for (int u = 0; u < SCREEN_WIDTH; ++u) {
       pcl::PointXYZRGB& p = points.at(u, v);
-      p.z = THING.contains({u, v}) ? 1.15F : 2.0F;
+      p.z = FRAMED.contains({u, v}) ? 1.15F : 2.0F;
       if (BOARD.contains({u, v})) {
         p.z = 1.06F + 2e-4F * float(u);
         if (u >= BOARD.width - 8) // matching blurs the step
@@ -48,9 +48,9 @@ TEST(ObjectSegmenter, LeavesOutWhatComesIntoTheBoxFromBesideIt) {
   ObjectSegmenter segmenter;
   Segment segment;
   ASSERT_TRUE(segmenter.segmentBox(
-      image(), {THING.x, THING.y, THING.width, THING.height}, cloud(), segment));
-  const cv::Rect left(THING.x, THING.y + 5, 20, THING.height - 10),
-      right(160, THING.y + 5, 70, THING.height - 10);
+      image(), {FRAMED.x, FRAMED.y, FRAMED.width, FRAMED.height}, cloud(), segment));
+  const cv::Rect left(FRAMED.x, FRAMED.y + 5, 20, FRAMED.height - 10),
+      right(160, FRAMED.y + 5, 70, FRAMED.height - 10);
   EXPECT_LT(cv::countNonZero(segment.mask(left)), 0.1 * left.area());
   EXPECT_GT(cv::countNonZero(segment.mask(right)), 0.9 * right.area());
 }

@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace pcl_sq::test {
@@ -32,6 +33,24 @@ inline pcl::PointCloud<pcl::PointXYZ>::Ptr randomCloud(std::size_t count,
   cloud->sensor_origin_ = Eigen::Vector4f(1, 2, 3, 0);
   cloud->sensor_orientation_ = Eigen::Quaternionf(0.5f, 0.5f, 0.5f, 0.5f);
   return cloud;
+}
+
+/** \brief An organized cloud of a camera's points, row by row. */
+inline pcl::PointCloud<pcl::PointXYZ>::Ptr
+organized(const Eigen::Matrix3Xf& points, int width, int height) {
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(std::uint32_t(width),
+                                                                std::uint32_t(height));
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    (*cloud)[i].getVector3fMap() = points.col(Eigen::Index(i));
+  cloud->is_dense = false;
+  return cloud;
+}
+
+/** \brief The indices of all points. */
+inline pcl::IndicesPtr allIndices(std::size_t count) {
+  auto indices = pcl::make_shared<pcl::Indices>(count);
+  std::iota(indices->begin(), indices->end(), 0);
+  return indices;
 }
 
 /** \brief Every step-th index, backwards: neither 0..n-1 nor sorted. */

@@ -51,4 +51,24 @@ private:
   std::mt19937 engine_;
 };
 
+/** \brief With one parameter moved, in the order of the derivatives' rows: place, turn,
+ * logarithm of the sides, exponents, taper, bend. */
+inline Superquadric moved(Superquadric s, int i, double step) {
+  Eigen::Vector3d unit = Eigen::Vector3d::Zero();
+  unit[i % 3] = 1.0;
+  if (i < 3)
+    s.center += s.rotation * unit * step;
+  else if (i < 6)
+    s.rotation *= Eigen::AngleAxisd(step, unit).toRotationMatrix();
+  else if (i < 9)
+    s.semi_axes[i - 6] *= std::exp(step);
+  else
+    (i == 9    ? s.epsilon1
+     : i == 10 ? s.epsilon2
+     : i == 11 ? s.kx
+     : i == 12 ? s.ky
+               : s.bend) += step;
+  return s;
+}
+
 } // namespace pcl_sq::test

@@ -17,4 +17,12 @@ replaced(std::string text, const std::string& what, const std::string& by) {
   return text;
 }
 
+/** \brief How often a word is in a text. */
+inline std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at)
+    ++n;
+  return n;
+}
+
 } // namespace pcl_sq::test

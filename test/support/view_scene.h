@@ -110,6 +110,17 @@ struct ViewScene {
   }
 };
 
+/** \brief A camera of 320 x 240 pixels, twice as fine. */
+inline ViewScene finerScene() {
+  ViewScene scene(0.6);
+  scene.width = 320;
+  scene.height = 240;
+  scene.camera.fx = scene.camera.fy = 600.0;
+  scene.camera.cx = 159.5;
+  scene.camera.cy = 119.5;
+  return scene;
+}
+
 /** \brief A can on a table. */
 inline ViewScene canScene(double noise = 0.001) {
   ViewScene scene;

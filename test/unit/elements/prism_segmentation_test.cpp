@@ -16,7 +16,7 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 namespace {
 
 /** A flat bottle: body 0.2 x 0.3 m below (y points down), neck 0.06 x 0.1 m on top. */
-Cloud::Ptr bottle() {
+Cloud::Ptr bottleCloud() {
   const Cloud::Ptr body = randomCloud(6000, 1, 0.0f, 0.0f, 0.0f, 1.0f);
   const Cloud::Ptr neck = randomCloud(2000, 2, 0.0f, 0.0f, 0.0f, 1.0f);
   Cloud::Ptr cloud(new Cloud);
@@ -44,7 +44,7 @@ PrismOptions figure4() {
 
 class PrismSegmentationTest : public testing::Test {
 protected:
-  PrismSegmentationTest() : cloud(bottle()) {
+  PrismSegmentationTest() : cloud(bottleCloud()) {
     segmentation.setInputCloud(cloud);
     segmentation.setVoxelLayout(layoutOf(cloud));
   }
@@ -163,7 +163,7 @@ TEST_F(PrismSegmentationTest, FailsWithoutAGridOrPoints) {
   for (const std::size_t count : {0u, 1u, 29u}) {
     Cloud::Ptr few(new Cloud);
     few->assign(count, pcl::PointXYZ(0.1f, 0.2f, 1.01f));
-    segmentation.setVoxelLayout(layoutOf(bottle()));
+    segmentation.setVoxelLayout(layoutOf(bottleCloud()));
     segmentation.setInputCloud(few);
     clusters.resize(3);
     EXPECT_FALSE(segmentation.segment(clusters)) << count;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_sq/html_view.h"
 
+#include "text.h"
+
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;
+using pcl_sq::test::count;
 
 namespace {
 
@@ -18,13 +21,6 @@ ModelFile fileOf(std::size_t cups) {
   ModelFile file;
   file.model.parts.assign(cups, cup);
   return file;
-}
-
-std::size_t count(const std::string& text, const std::string& word) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at)
-    ++n;
-  return n;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include "pcl_sq/mass_properties.h"
 #include "pcl_sq/robot_export.h"
+#include "text.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 
 using namespace pcl_sq;
 using detail::CollisionShape;
+using pcl_sq::test::count;
 
 namespace {
 
@@ -41,13 +43,6 @@ Superquadric cup() {
   s.rim = 0.9;
   s.wall = 0.004;
   return s;
-}
-
-std::size_t count(const std::string& text, const std::string& word) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at)
-    ++n;
-  return n;
 }
 
 /** \brief Whether each edge of a mesh has two triangles, and its volume. */

@@ -11,16 +11,6 @@ using namespace pcl_sq::test;
 
 namespace {
 
-ViewScene finerScene() {
-  ViewScene scene(0.6);
-  scene.width = 320;
-  scene.height = 240;
-  scene.camera.fx = scene.camera.fy = 600.0;
-  scene.camera.cx = 159.5;
-  scene.camera.cy = 119.5;
-  return scene;
-}
-
 /** \brief Adds a rod of radius .016 that lies on the table. */
 Superquadric& addRod(ViewScene& scene, double bend) {
   scene.addUpright({0.016, 0.016, 0.09}, 0.4, 1.0, 0.016);

@@ -31,16 +31,6 @@ Superquadric& addVessel(ViewScene& scene,
   return s;
 }
 
-ViewScene finerScene() {
-  ViewScene scene(0.6);
-  scene.width = 320;
-  scene.height = 240;
-  scene.camera.fx = scene.camera.fy = 600.0;
-  scene.camera.cx = 159.5;
-  scene.camera.cy = 119.5;
-  return scene;
-}
-
 } // namespace
 
 TEST(VesselStarts, AHandleDoesNotMoveTheAxisOfACupFromAllRound) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 using namespace pcl_sq;
+using pcl_sq::test::moved;
 using pcl_sq::test::Random;
 
 namespace {
@@ -37,25 +38,6 @@ Eigen::Vector3d placeNear(Random& random, const Superquadric& s, double gauge) {
   straight.kx = straight.ky = straight.bend = 0.0;
   const Eigen::Vector3d p = random.surfacePoint(straight);
   return s.deformed(s.center + gauge * (p - s.center));
-}
-
-/** \brief With one parameter moved, in the rows' order, the curvature behind them. */
-Superquadric moved(Superquadric s, int i, double step) {
-  Eigen::Vector3d unit = Eigen::Vector3d::Zero();
-  unit[i % 3] = 1.0;
-  if (i < 3)
-    s.center += s.rotation * unit * step;
-  else if (i < 6)
-    s.rotation *= Eigen::AngleAxisd(step, unit).toRotationMatrix();
-  else if (i < 9)
-    s.semi_axes[i - 6] *= std::exp(step);
-  else
-    (i == 9    ? s.epsilon1
-     : i == 10 ? s.epsilon2
-     : i == 11 ? s.kx
-     : i == 12 ? s.ky
-               : s.bend) += step;
-  return s;
 }
 
 /** \brief An arc like the handle of a mug, its hole towards the origin's side. */

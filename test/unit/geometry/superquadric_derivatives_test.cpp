@@ -10,25 +10,7 @@ using pcl_sq::Superquadric;
 using pcl_sq::SuperquadricCoefficients;
 using namespace pcl_sq::test;
 
-namespace {
-
-/** \brief A superquadric moved along one entry of the derivative's parameter order. */
-Superquadric moved(Superquadric s, int parameter, double by) {
-  if (parameter < 3)
-    s.center += s.rotation.col(parameter) * by;
-  else if (parameter < 6)
-    s.rotation *=
-        Eigen::AngleAxisd(by, Eigen::Vector3d::Unit(parameter - 3)).toRotationMatrix();
-  else if (parameter < 9)
-    s.semi_axes[parameter - 6] *= std::exp(by);
-  else if (parameter == 9)
-    s.epsilon1 += by;
-  else
-    s.epsilon2 += by;
-  return s;
-}
-
-} // namespace
+namespace {} // namespace
 
 TEST(Superquadric, GradientsMatchCentralDifferences) {
   Random random(4);

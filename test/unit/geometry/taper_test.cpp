@@ -9,6 +9,7 @@
 
 using namespace pcl_sq;
 using pcl_sq::test::anyTapered;
+using pcl_sq::test::moved;
 using pcl_sq::test::Random;
 using pcl_sq::test::straight;
 
@@ -16,21 +17,6 @@ namespace {
 
 Eigen::Vector3d surfacePoint(Random& random, const Superquadric& s) {
   return s.deformed(random.surfacePoint(straight(s)));
-}
-
-/** \brief The superquadric with one parameter moved, in the rows' order. */
-Superquadric moved(Superquadric s, int i, double step) {
-  Eigen::Vector3d unit = Eigen::Vector3d::Zero();
-  unit[i % 3] = 1.0;
-  if (i < 3)
-    s.center += s.rotation * unit * step;
-  else if (i < 6)
-    s.rotation *= Eigen::AngleAxisd(step, unit).toRotationMatrix();
-  else if (i < 9)
-    s.semi_axes[i - 6] *= std::exp(step);
-  else
-    (i == 9 ? s.epsilon1 : i == 10 ? s.epsilon2 : i == 11 ? s.kx : s.ky) += step;
-  return s;
 }
 
 } // namespace

@@ -18,7 +18,7 @@ using pcl_sq::test::Random;
 
 namespace {
 
-MultiSuperquadric bottle() {
+MultiSuperquadric placedBottle() {
   MultiSuperquadric bottle;
   bottle.parts.resize(2);
   bottle.parts[0].semi_axes = {0.033, 0.033, 0.1};
@@ -97,9 +97,9 @@ double volume(const TriangleMesh& mesh) {
 TEST(GraspitExport, TheBodyHasMassInGramsAndInertiaOfUnitMassInSquareMillimetres) {
   GraspitOptions options;
   options.density = 1000.0;
-  const auto files = byPath(graspitFiles(bottle(), options));
+  const auto files = byPath(graspitFiles(placedBottle(), options));
   const ptree body = xml(files.at("models/objects/object.xml"));
-  const MassProperties mass = massProperties(bottle());
+  const MassProperties mass = massProperties(placedBottle());
   EXPECT_NEAR(body.get<double>("root.mass"), mass.volume * 1e6, 1e-3); // litre = 1 kg
   EXPECT_EQ(numbers(body.get<std::string>("root.cog")), std::vector<double>(3, 0.0));
   EXPECT_EQ(body.get<std::string>("root.material"), "plastic");
@@ -116,12 +116,12 @@ TEST(GraspitExport, TheBodyHasMassInGramsAndInertiaOfUnitMassInSquareMillimetres
 }
 
 TEST(GraspitExport, TheMeshIsTheUnionAboutItsCentreOfGravityInMillimetres) {
-  const auto files = byPath(graspitFiles(bottle()));
+  const auto files = byPath(graspitFiles(placedBottle()));
   const TriangleMesh mesh = readOff(files.at("models/objects/object.off"));
-  const MassProperties mass = massProperties(bottle());
+  const MassProperties mass = massProperties(placedBottle());
   EXPECT_NEAR(volume(mesh), 1e9 * mass.volume, 0.01 * 1e9 * mass.volume);
   for (const Eigen::Vector3d& v : mesh.vertices)
-    EXPECT_NEAR(bottle().gauge(1e-3 * v + mass.center), 1.0, 1e-4);
+    EXPECT_NEAR(placedBottle().gauge(1e-3 * v + mass.center), 1.0, 1e-4);
 }
 
 TEST(GraspitExport, TheWorldPlacesTheBodyWhereTheModelIs) {
@@ -129,7 +129,7 @@ TEST(GraspitExport, TheWorldPlacesTheBodyWhereTheModelIs) {
   options.name = "bottle-1";
   options.has_table = true;
   options.table_offset = -0.8;
-  const auto files = byPath(graspitFiles(bottle(), options));
+  const auto files = byPath(graspitFiles(placedBottle(), options));
   const ptree world = xml(files.at("worlds/bottle-1.xml"));
   const std::string body = world.get<std::string>("world.graspableBody.filename");
   EXPECT_EQ(files.count(body), 1u) << body;
@@ -137,7 +137,7 @@ TEST(GraspitExport, TheWorldPlacesTheBodyWhereTheModelIs) {
       numbers(world.get<std::string>("world.graspableBody.transform.fullTransform"));
   ASSERT_EQ(pose.size(), 7u);
   EXPECT_EQ(pose[0], 1.0); // w first
-  const Eigen::Vector3d center = massProperties(bottle()).center;
+  const Eigen::Vector3d center = massProperties(placedBottle()).center;
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(pose[std::size_t(4 + k)], 1e3 * center[k], 1e-4);
   const std::string table = world.get<std::string>("world.obstacle.filename");
@@ -158,7 +158,7 @@ TEST(GraspitExport, TheCameraLooksAtTheObjectWithTheTableBelow) {
   GraspitOptions options;
   options.has_table = true;
   options.table_normal = Eigen::Vector3d(0.0, -1.0, -0.5).normalized();
-  const auto files = byPath(graspitFiles(bottle(), options));
+  const auto files = byPath(graspitFiles(placedBottle(), options));
   const ptree world = xml(files.at("worlds/object.xml"));
   const std::vector<double> p =
       numbers(world.get<std::string>("world.camera.position"));
@@ -168,7 +168,7 @@ TEST(GraspitExport, TheCameraLooksAtTheObjectWithTheTableBelow) {
   const Eigen::Quaterniond q(o[3], o[0], o[1], o[2]); // x y z w
   const Eigen::Vector3d seen =
       Eigen::Vector3d(p[0], p[1], p[2]) - focal * (q * Eigen::Vector3d::UnitZ());
-  EXPECT_LT((1e-3 * seen - massProperties(bottle()).center).norm(), 1e-6);
+  EXPECT_LT((1e-3 * seen - massProperties(placedBottle()).center).norm(), 1e-6);
   EXPECT_NEAR((q * Eigen::Vector3d::UnitY()).dot(options.table_normal), 1.0, 1e-6);
 }
 
@@ -211,11 +211,11 @@ TEST(GraspitExport, PrimitivesAreTheShapesAPersonWouldChoose) {
 
 TEST(GraspitExport, PartBodiesAndGraspCandidatesAreOptional) {
   GraspitOptions options;
-  const std::size_t plain = graspitFiles(bottle(), options).size();
+  const std::size_t plain = graspitFiles(placedBottle(), options).size();
   options.part_bodies = true;
   options.grasps.resize(3);
   options.grasps[0].position = {0.1, 0.2, 0.3};
-  const auto files = byPath(graspitFiles(bottle(), options));
+  const auto files = byPath(graspitFiles(placedBottle(), options));
   EXPECT_EQ(files.size(), plain + 2 * 2 + 2);
   EXPECT_GT(volume(readOff(files.at("models/objects/object_part1.off"))), 0.0);
   std::istringstream lines(files.at("object_grasps.txt"));
@@ -232,13 +232,13 @@ TEST(GraspitExport, BadInputGivesNoFiles) {
   EXPECT_TRUE(graspitFiles({}).empty());
   GraspitOptions options;
   options.name = "../etc";
-  EXPECT_TRUE(graspitFiles(bottle(), options).empty());
+  EXPECT_TRUE(graspitFiles(placedBottle(), options).empty());
   options = {};
   options.density = 0.0;
   std::string why;
   EXPECT_FALSE(options.isValid(&why));
   EXPECT_NE(why.find("density"), std::string::npos);
-  MultiSuperquadric broken = bottle();
+  MultiSuperquadric broken = placedBottle();
   broken.parts[0].epsilon1 = 7.0;
   EXPECT_TRUE(graspitFiles(broken).empty());
 }

@@ -10,12 +10,12 @@ using namespace pcl_sq::test;
 
 namespace {
 
-constexpr double NOISE = 0.001;
+constexpr double SENSOR_NOISE = 0.001;
 
 ViewScene boxScene() {
   ViewScene scene;
   scene.addUpright({0.05, 0.05, 0.08}, 0.2, 0.2, 0.08);
-  scene.render(NOISE);
+  scene.render(SENSOR_NOISE);
   return scene;
 }
 
@@ -34,7 +34,8 @@ ObservedObject observed(const ViewScene& scene) {
 
 TEST(Verdict, BelievesTheTruth) {
   const ViewScene scene = boxScene();
-  const detail::Verdict verdict = detail::judge(scene.object, observed(scene), NOISE);
+  const detail::Verdict verdict =
+      detail::judge(scene.object, observed(scene), SENSOR_NOISE);
   EXPECT_GT(verdict.confidence(), 0.9);
   EXPECT_EQ(verdict.objection(), "");
 }
@@ -43,22 +44,22 @@ TEST(Verdict, ObjectsToANeedle) {
   const ViewScene scene = boxScene();
   MultiSuperquadric needle = scene.object;
   needle.parts[0].semi_axes = {0.001, 0.001, 0.3};
-  EXPECT_NE(detail::judge(needle, observed(scene), NOISE).objection(), "");
+  EXPECT_NE(detail::judge(needle, observed(scene), SENSOR_NOISE).objection(), "");
 }
 
 TEST(Verdict, ObjectsToAModelOfAPieceOfTheObject) {
   const ViewScene scene = boxScene();
   MultiSuperquadric piece = scene.object;
   piece.parts[0].semi_axes *= 0.8;
-  EXPECT_LT(detail::judge(piece, observed(scene), NOISE).pixels, 0.8);
-  EXPECT_NE(detail::judge(piece, observed(scene), NOISE).objection(), "");
+  EXPECT_LT(detail::judge(piece, observed(scene), SENSOR_NOISE).pixels, 0.8);
+  EXPECT_NE(detail::judge(piece, observed(scene), SENSOR_NOISE).objection(), "");
 }
 
 TEST(Verdict, ObjectsToAModelThatTheBackgroundIsSeenThrough) {
   const ViewScene scene = boxScene();
   MultiSuperquadric huge = scene.object;
   huge.parts[0].semi_axes *= 3.0;
-  const detail::Verdict verdict = detail::judge(huge, observed(scene), NOISE);
+  const detail::Verdict verdict = detail::judge(huge, observed(scene), SENSOR_NOISE);
   EXPECT_LT(verdict.background, 0.8);
 }
 

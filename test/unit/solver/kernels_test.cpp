@@ -54,7 +54,7 @@ TEST_P(EveryIsa, SumsAgreeWithThePortableOnes) {
     const Scene scene(random, 300 + 7 * static_cast<std::size_t>(trial));
     for (const Residual kind : KINDS)
       for (const float outlier : {0.0F, 0.2F}) {
-        const Mixture mixture{50.0F, outlier};
+        const kernels::Mixture mixture{50.0F, outlier};
         const Shape shape = detail::toShape(scene.shape);
         Sums expected, sums;
         kernelsFor(Isa::PORTABLE)
