@@ -143,11 +143,11 @@ fitFull(const Points& points, const Superquadric* initial, const FitOptions& opt
     best = candidateAt(part, frame.toUnit(*initial), setting);
     best = refine(part, best, setting, last);
   } else {
-    best = refine(part, search(part, false, setting), setting, last);
+    best = refine(part, search(part, nullptr, setting), setting, last);
     if (doubtful(part, best)) {
       LmResult other_last;
       const Candidate other =
-          refine(part, search(part, true, setting), setting, other_last);
+          refine(part, search(part, &best.model, setting), setting, other_last);
       if (other.nll < best.nll) {
         best = other;
         last = other_last;

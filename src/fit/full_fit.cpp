@@ -83,14 +83,15 @@ Candidate anneal(const UnitPoints& points,
   return c;
 }
 
-Candidate search(const UnitPoints& points, bool thorough, FitSetting& s) {
+Candidate search(const UnitPoints& points, const Superquadric* doubted, FitSetting& s) {
+  const bool thorough = doubted != nullptr;
   const UnitPoints medium = subset(points, MEDIUM_POINTS);
   const UnitPoints coarse = thorough ? medium : subset(medium, COARSE_POINTS);
   const UnitPoints dense = subset(densePoints(points), 2 * MEDIUM_POINTS);
   // a tournament: few iterations for all starts, more for the best
   std::vector<Superquadric> starts = startShapes(dense);
   if (thorough)
-    for (const Superquadric& start : furtherStartShapes(dense))
+    for (const Superquadric& start : furtherStartShapes(dense, *doubted))
       starts.push_back(start);
   std::vector<Candidate> candidates;
   Candidate best;

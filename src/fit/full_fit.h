@@ -38,9 +38,11 @@ Candidate anneal(const UnitPoints& points,
                  int rounds,
                  FitSetting& setting);
 
-/** \brief The best of many starts on a subset of the points. \param[in] thorough more
- * starts, more of them carried on */
-Candidate search(const UnitPoints& points, bool thorough, FitSetting& setting);
+/** \brief The best of many starts on a subset of the points. \param[in] doubted a fit
+ * that is likely to be wrong: more starts, also along its axes, and more of them
+ * carried on; nullptr where there is none */
+Candidate
+search(const UnitPoints& points, const Superquadric* doubted, FitSetting& setting);
 
 /** \brief Fit to all points by the distance to the foot point, to convergence of model
  * and mixture. \param[out] last of the Levenberg-Marquardt runs */

@@ -13,6 +13,7 @@ constexpr std::size_t POINTS = 512;
 constexpr double EXACT = 1e-5;      ///< a sigma that only the right shape has
 constexpr double SYSTEMATIC = 0.35; ///< a correlation that noise never has
 constexpr double MANY_OUTLIERS = 0.03;
+constexpr double MANY = 0.4;     ///< of the points: a body of many may be another one's
 constexpr double CROWDED = 0.75; ///< of the outliers' share
 
 /** \brief The ten low bits of a number, two zeros after each. */
@@ -80,7 +81,8 @@ bool outliersCrowded(const UnitPoints& points, const Candidate& c) {
 
 bool doubtful(const UnitPoints& points, const Candidate& c) {
   return c.mixture.sigma > EXACT &&
-         (outliersCrowded(points, c) || residualCorrelation(points, c) > SYSTEMATIC);
+         (c.mixture.outlier_share > MANY || outliersCrowded(points, c) ||
+          residualCorrelation(points, c) > SYSTEMATIC);
 }
 
 } // namespace pcl_sq::detail

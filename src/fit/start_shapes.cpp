@@ -11,10 +11,11 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr double BOX = 0.3;        ///< exponents of a box that can still move
-constexpr double OCTAHEDRON = 1.7; ///< and of an octahedron
-constexpr double FLAT = 0.05;      ///< smallest start's axis over the largest
-constexpr std::size_t CUT = 100;   ///< one point in so many is left out at each end
+constexpr double BOX = 0.3;          ///< exponents of a box that can still move
+constexpr double OCTAHEDRON = 1.7;   ///< and of an octahedron
+constexpr double FLAT = 0.05;        ///< smallest start's axis over the largest
+constexpr std::size_t CUT = 100;     ///< one point in so many is left out at each end
+constexpr std::size_t OUTLYING = 20; ///< among many outliers
 
 /** \brief Axes, middle and half sides of the box around the points. */
 struct Box {
@@ -23,9 +24,11 @@ struct Box {
 };
 
 /** \brief Box along given axes, a few points left out at each end. */
-Box boxAlong(const UnitPoints& points, const Eigen::Matrix3d& axes) {
+Box boxAlong(const UnitPoints& points,
+             const Eigen::Matrix3d& axes,
+             std::size_t one_in = CUT) {
   const std::size_t n = points.size();
-  const auto cut = static_cast<std::ptrdiff_t>(n / CUT);
+  const auto cut = static_cast<std::ptrdiff_t>(n / one_in);
   std::vector<float> along(n);
   Eigen::Vector3d low, high;
   for (int k = 0; k < 3; ++k) {
@@ -84,8 +87,12 @@ std::vector<Superquadric> startShapes(const UnitPoints& dense) {
   return starts;
 }
 
-std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense) {
+std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense,
+                                             const Superquadric& fit) {
   std::vector<Superquadric> starts;
+  const Box along_fit = boxAlong(dense, fit.rotation, OUTLYING);
+  for (int shift = 0; shift < 3; ++shift)
+    starts.push_back(inBox(along_fit, shift, BOX));
   const Eigen::Matrix3d axes = principalAxesOf(dense);
   const Box box = boxAlong(dense, axes);
   for (int axis = 0; axis < 3; ++axis) {

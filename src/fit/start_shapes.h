@@ -10,9 +10,10 @@ namespace pcl_sq::detail {
 std::vector<Superquadric> startShapes(const UnitPoints& dense);
 
 /** \brief Further starts, for clouds of which the first ones explain too little:
- * centres pushed towards either end of each axis, octahedra, frames between the axes.
- */
-std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense);
+ * centres pushed towards either end of each axis, octahedra, frames between the axes,
+ * boxes along the axes of a fit whose sides may be wrong although its axes are not. */
+std::vector<Superquadric> furtherStartShapes(const UnitPoints& dense,
+                                             const Superquadric& fit);
 
 /** \brief Other descriptions of about the same body, as starts: the axes in other
  * order, the dual cross-section (Liu et al. 2022), and both. */
