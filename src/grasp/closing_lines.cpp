@@ -147,7 +147,7 @@ bool ClosingLines::refine(ClosingLine& line, double max_width) const {
     const Eigen::Vector3d middle = line.middle() - 0.25 * line.width * (n0 + n1);
     ClosingLine turned;
     if (!cast(middle, (n1 - n0).normalized(), line.parts[0], turned) ||
-        turned.width > max_width || turned.slope >= line.slope)
+        turned.width > max_width || turned.slope >= line.slope || liesInHollow(turned))
       break;
     line = turned;
     better = true;
