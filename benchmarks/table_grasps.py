@@ -4,13 +4,14 @@
 
 usage: table_grasps.py BIN SCENES... [--gripper franka_hand] [--out FOLDER] [--verbose]
 
-BIN holds pcl_sq_fit and pcl_sq_grasp, SCENES what `gen_table.py SCENES --objects 1` writes. Each
-thing is fitted with its exact mask and grasps are planned with the whole cloud around it.
+BIN holds pcl_sq_fit, pcl_sq_scene and pcl_sq_grasp, SCENES what `gen_table.py SCENES` writes: a
+thing alone is fitted with its exact mask, several with their exact labels. Grasps are planned with
+the whole cloud and the models of the other things around.
 A grasp is antipodal where the two jaws, closing from where they stand open, first meet the mesh
 on surfaces whose normals lie in the friction cones about the closing line; it is free where
-neither the true surface nor the table reaches into the hand's boxes, open, at the grasp and
-along the last 10 cm of the approach. Of each thing the best grasp, and the best ones on a rim
-(across the wall of an open part) and on a bent part (a handle).
+neither a true surface nor the table reaches into the hand's boxes, open, at the grasp and
+along the last 10 cm of the approach. Of each thing seen by 30 % or more the best grasp, and the
+best ones on a rim (across the wall of an open part) and on a bent part (a handle).
 """
 import argparse
 import collections
@@ -37,22 +38,29 @@ def read_obj(path):
     return np.array(vertices), np.array(triangles)
 
 
-class Truth:
-    """The true surface of one thing and its table, in the camera's frame."""
+def surface(corners):
+    a, b, c = (corners[:, k] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    random = np.random.default_rng(7)
+    pick = random.choice(len(areas), SAMPLES, p=areas / areas.sum())
+    u, v = random.random((2, SAMPLES))
+    u, v = np.where(u + v > 1, [1 - u, 1 - v], [u, v])
+    return a[pick] + u[:, None] * (b - a)[pick] + v[:, None] * (c - a)[pick]
 
-    def __init__(self, folder, truth):
-        thing = truth["objects"][0]
-        vertices, triangles = read_obj(folder / thing["mesh"])
-        pose = np.array(thing["T"]).reshape(4, 4)
-        self.corners = (vertices @ pose[:3, :3].T + pose[:3, 3])[triangles]
-        self.table = np.array(truth["table"])
-        a, b, c = (self.corners[:, k] for k in range(3))
-        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        random = np.random.default_rng(7)
-        pick = random.choice(len(areas), SAMPLES, p=areas / areas.sum())
-        u, v = random.random((2, SAMPLES))
-        u, v = np.where(u + v > 1, [1 - u, 1 - v], [u, v])
-        self.samples = a[pick] + u[:, None] * (b - a)[pick] + v[:, None] * (c - a)[pick]
+
+def corners_of(folder, thing):
+    vertices, triangles = read_obj(folder / thing["mesh"])
+    pose = np.array(thing["T"]).reshape(4, 4)
+    return (vertices @ pose[:3, :3].T + pose[:3, 3])[triangles]
+
+
+class Truth:
+    """The true surfaces of one thing, of the others and the table, in the camera's frame."""
+
+    def __init__(self, corners, others, table):
+        self.corners, self.table = corners, np.array(table)
+        self.samples = surface(corners)
+        self.others = np.concatenate([surface(o) for o in others]) if others else None
 
     def cast(self, origin, direction):
         """First hit: distance and the normal against the ray; None where nothing is met."""
@@ -81,7 +89,8 @@ class Truth:
         least = 1.0 / np.hypot(1.0, friction)
         return hits[0][1] @ y >= least and hits[1][1] @ -y >= least
 
-    def is_free(self, grasp, gripper):
+    def hits(self, grasp, gripper):
+        """What the open hand runs into: a word, or None."""
         frame, place = np.array(grasp["rotation"]), np.array(grasp["position"])
         tip = 0.5 * gripper["pad_length"]
         palm = tip - gripper["finger_length"]
@@ -90,17 +99,21 @@ class Truth:
         hand = [gripper[k] for k in ("palm_depth", "palm_width", "palm_height")]
         boxes = [((0, sign * out, 0.5 * (tip + palm)), finger) for sign in (1, -1)]
         boxes.append(((0, 0, palm - 0.5 * gripper["palm_height"]), hand))
+        up = frame.T @ self.table[:3]
         for back in (0.0, 0.2, 0.5, 1.0):
             away = place - back * RETREAT * frame[:, 2]
-            local = (self.samples - away) @ frame
             height = self.table[:3] @ away + self.table[3]
-            up = frame.T @ self.table[:3]
             for centre, sizes in boxes:
                 if height + up @ centre - 0.5 * np.abs(up) @ sizes < 0.0:
-                    return False
-                if (np.abs(local - centre) <= 0.5 * np.array(sizes)).all(1).any():
-                    return False
-        return True
+                    return "the table"
+            for word, samples in (("itself", self.samples), ("another", self.others)):
+                if samples is None:
+                    continue
+                local = (samples - away) @ frame
+                for centre, sizes in boxes:
+                    if (np.abs(local - centre) <= 0.5 * np.array(sizes)).all(1).any():
+                        return word
+        return None
 
 
 def kind_of(grasp, parts):
@@ -110,19 +123,48 @@ def kind_of(grasp, parts):
     return "handle" if "bend" in first and "bend" in second else "body"
 
 
-def plan(binaries, folder, truth, out, gripper):
-    camera = truth["camera"]
-    model, grasps = out / "model.json", out / "grasps.json"
-    commands = ([binaries / "pcl_sq_fit", folder / "cloud.pcd", "--mask",
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    return done.stderr.strip() if done.returncode != 0 else None
+
+
+def roi_of(thing):
+    x, y, w, h = thing["roi"]
+    return np.array([x, y, x + w, y + h])
+
+
+def models_of(binaries, folder, truth, out):
+    """Fits a scene: the file of the models, and of each true thing the number of its model
+    among them and its parts; None where there is none."""
+    camera, number = truth["camera"], len(truth["objects"])
+    model = out / "model.json"
+    failed = run(binaries / ("pcl_sq_fit" if number == 1 else "pcl_sq_scene"),
+                 folder / "cloud.pcd", "--mask" if number == 1 else "--labels",
                  folder / "labels.png", "--intrinsics",
-                 "{f},{f},{cx},{cy}".format(**camera), "-o", model, "--threads", "1", "-q"],
-                [binaries / "pcl_sq_grasp", model, "--cloud", folder / "cloud.pcd", "--count",
-                 "100", "--gripper", gripper, "-o", grasps, "-q"])
-    for command in commands:
-        done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-        if done.returncode != 0:
-            return None, done.stderr.strip()
-    return json.loads(grasps.read_text()), json.loads(model.read_text())["superquadrics"]
+                 "{f},{f},{cx},{cy}".format(**camera), "-o", model, "--threads", "1", "-q")
+    if failed:
+        return model, [None] * number
+    read = json.loads(model.read_text())
+    if number == 1:
+        return model, [(0, read["superquadrics"])]
+    found = []
+    for thing in truth["objects"]:
+        away = [np.abs(roi_of(o) - roi_of(thing)).max() for o in read["objects"]]
+        k = int(np.argmin(away)) if away else 0
+        found.append((k + 1, read["objects"][k]["superquadrics"])
+                     if away and away[k] <= 3 else None)
+    return model, found
+
+
+def plan(binaries, folder, model, thing, gripper, out):
+    """The grasps of one thing, or why there are none."""
+    if thing is None:
+        return None, "no model"
+    grasps = out / f"grasps{thing[0]}.json"
+    failed = run(binaries / "pcl_sq_grasp", model, "--cloud", folder / "cloud.pcd", "--count",
+                 "100", "--gripper", gripper, "-o", grasps, "-q",
+                 *(["--object", thing[0]] if thing[0] else []))
+    return (None, failed) if failed else (json.loads(grasps.read_text()), None)
 
 
 def main():
@@ -140,27 +182,35 @@ def main():
                                key=lambda f: int(f.name))]
     for number, folder in enumerate(folders):
         truth = json.loads((folder / "truth.json").read_text())
-        name = truth["objects"][0]["name"]
+        corners = [corners_of(folder, thing) for thing in truth["objects"]]
         with tempfile.TemporaryDirectory() as scratch:
             out = args.out / str(number) if args.out else pathlib.Path(scratch)
             out.mkdir(parents=True, exist_ok=True)
-            found, parts = plan(args.binaries, folder, truth, out, args.gripper)
-        rows[name].append(None)
-        if found is None:
-            if args.verbose:
-                print(f"{folder} {name}: {parts}")
-            continue
-        mesh, best = Truth(folder, truth), {}
-        for rank, grasp in enumerate(found["grasps"]):
-            kind = kind_of(grasp, parts)
-            for key in ({"best", kind} if rank == 0 else {kind}) - set(best):
-                best[key] = (mesh.is_antipodal(grasp, found["friction"]),
-                             mesh.is_free(grasp, found["gripper"]), rank + 1)
-        rows[name][-1] = best
-        if args.verbose:
-            print(f"{folder} {name}:", ", ".join(
-                f"{key} {'antipodal' if v[0] else 'SLIPS'} {'free' if v[1] else 'HITS'}"
-                f" (rank {v[2]})" for key, v in sorted(best.items())))
+            model, things = models_of(args.binaries, folder, truth, out)
+            for k, true_thing in enumerate(truth["objects"]):
+                if true_thing["visible"] < 0.3:
+                    continue
+                name = true_thing["name"]
+                found, why = plan(args.binaries, folder, model, things[k], args.gripper, out)
+                rows[name].append(None)
+                if found is None:
+                    if args.verbose:
+                        print(f"{folder} {k + 1} {name}: {why}")
+                    continue
+                mesh = Truth(corners[k], corners[:k] + corners[k + 1:], truth["table"])
+                best = {}
+                for rank, grasp in enumerate(found["grasps"]):
+                    kind = kind_of(grasp, things[k][1])
+                    for key in ({"best", kind} if rank == 0 else {kind}) - set(best):
+                        hit = mesh.hits(grasp, found["gripper"])
+                        best[key] = (mesh.is_antipodal(grasp, found["friction"]), hit is None,
+                                     rank + 1, hit)
+                rows[name][-1] = best
+                if args.verbose:
+                    print(f"{folder} {k + 1} {name}:", ", ".join(
+                        f"{key} {'antipodal' if v[0] else 'SLIPS'} "
+                        f"{'free' if v[1] else 'HITS ' + v[3]} (rank {v[2]})"
+                        for key, v in sorted(best.items())))
     rows["all"] = [r for values in list(rows.values()) for r in values]
     print("thing    things planned | antipodal / free [%], number: best of each thing" +
           "".join(f" | {kind}" for kind in KINDS))

@@ -44,7 +44,7 @@ std::vector<ClosingLine> ClosingLines::find(double min_width,
     // both normals of a part's own line slip alike, and no second part mends both
     if (line.slope <= options_.friction && !line.at_rim && extendToUnion(line))
       setSlope(line);
-    if (line.slope > options_.friction) {
+    if (line.slope > options_.friction || liesInHollow(line)) {
       ++rejections.slipping;
     } else if (line.width > max_width) {
       ++rejections.too_wide;
@@ -60,6 +60,15 @@ std::vector<ClosingLine> ClosingLines::find(double min_width,
     }
   }
   return kept;
+}
+
+bool ClosingLines::liesInHollow(const ClosingLine& line) const {
+  for (std::size_t k = 0; k < object_.size(); ++k)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (k != line.parts[c] && object_.parts[k].isHollow() &&
+          object_.parts[k].contains(line.points[c]))
+        return true;
+  return false;
 }
 
 bool ClosingLines::extendToUnion(ClosingLine& line) const {
@@ -138,7 +147,7 @@ bool ClosingLines::refine(ClosingLine& line, double max_width) const {
     const Eigen::Vector3d middle = line.middle() - 0.25 * line.width * (n0 + n1);
     ClosingLine turned;
     if (!cast(middle, (n1 - n0).normalized(), line.parts[0], turned) ||
-        turned.width > max_width || turned.slope >= line.slope)
+        turned.width > max_width || turned.slope >= line.slope || liesInHollow(turned))
       break;
     line = turned;
     better = true;
@@ -172,6 +181,24 @@ double ClosingLines::robustness(const Eigen::Vector3d& point,
 double ClosingLines::robustness(const ClosingLine& line) const {
   return 0.5 * (robustness(line.points[0], -line.axis, line.parts[0]) +
                 robustness(line.points[1], line.axis, line.parts[1]));
+}
+
+bool ClosingLines::standsShift(const ClosingLine& line, double shift) const {
+  if (!(shift > 0.0)) // nothing was measured
+    return true;
+  // on a round body the normal leans twice as much as the secant
+  const double spare = 0.5 * (options_.friction - line.slope);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Eigen::Vector3d& normal = line.normals[c];
+    const Eigen::Vector3d first = across(normal, object_.parts[line.parts[c]].rotation);
+    const Eigen::Vector3d second = normal.cross(first);
+    for (const Eigen::Vector3d& side : {first, second})
+      for (const double sign : {-1.0, 1.0})
+        if (!contains(line.points[c] + shift * (sign * side - spare * normal),
+                      line.parts[c]))
+          return false;
+  }
+  return true;
 }
 
 } // namespace pcl_sq::detail

@@ -54,6 +54,11 @@ public:
                     const Eigen::Vector3d& outward,
                     std::size_t part) const;
 
+  /** \brief Whether both contacts stay within their friction cones where the body lies
+   * \a shift [m] beside its model: on a stem as thin as the points scatter they do
+   * not. */
+  bool standsShift(const ClosingLine& line, double shift) const;
+
   /** \brief The closing line through \a middle that starts from one part. \return
    * whether the part is met */
   bool cast(const Eigen::Vector3d& middle,
@@ -62,6 +67,9 @@ public:
             ClosingLine& line) const;
 
 private:
+  /** \brief Whether a contact lies within another part that is open: what of a handle
+   * reaches through a wall belongs to the model, not to the thing. */
+  bool liesInHollow(const ClosingLine& line) const;
   bool extendToUnion(ClosingLine& line) const;
   void setSlope(ClosingLine& line) const;
   bool contains(const Eigen::Vector3d& point, std::size_t first) const;

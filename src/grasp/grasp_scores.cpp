@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The terms by which grasps are ranked.
+// The terms by which grasps are ranked, and how near a hand comes to what was measured.
 #include "grasp/grasp_search.h"
 
 #include <algorithm>
@@ -55,6 +55,29 @@ void GraspSearch::scorePose(Grasp& grasp, double table_clearance) const {
                    ? 0.5 * (1.0 + grasp.approach().dot(favoured_))
                    : 1.0;
   s.total = total(s);
+}
+
+bool GraspSearch::openHandTouches(const Grasp& grasp, double opening) const {
+  std::vector<double> reach;
+  for (int i = 0; i < gripper_.fingers; ++i)
+    reach.push_back(opening +
+                    gripper_.fingerDirection(grasp.rotation, i)
+                        .dot(grasp.contacts[std::size_t(i)].position - grasp.position));
+  const std::vector<OrientedBox> boxes =
+      gripper_.boxes(grasp.position, grasp.rotation, reach);
+  return std::any_of(boxes.begin(), boxes.end() - 1, [&](const OrientedBox& finger) {
+    return collision_.meetsPoints(finger, std::min(options_.clearance, 0.5 * opening));
+  });
+}
+
+bool GraspSearch::tipsTouch(const Grasp& grasp) const {
+  Grasp ahead = grasp;
+  ahead.position += options_.margin * grasp.approach();
+  const std::vector<OrientedBox> boxes =
+      collision_.boxes(ahead, 0.5 * (grasp.open_width - grasp.width));
+  return std::any_of(boxes.begin(), boxes.end() - 1, [&](const OrientedBox& finger) {
+    return collision_.test(finger, 0.0) == Obstruction::OBJECT;
+  });
 }
 
 } // namespace pcl_sq::detail

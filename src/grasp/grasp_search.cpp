@@ -145,6 +145,9 @@ Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
     found = table < options_.clearance ? Obstruction::TABLE : Obstruction::NONE;
     if (found == Obstruction::NONE && !palm_is_free) {
       found = collision_.test(boxes.back(), options_.margin);
+      if (found == Obstruction::NONE &&
+          collision_.meetsPoints(boxes.back(), options_.clearance))
+        found = Obstruction::OBJECT;
       if (found != Obstruction::NONE)
         return found;
       palm_is_free = true;
@@ -152,6 +155,8 @@ Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
     for (std::size_t i = 0; i + 1 < boxes.size(); ++i)
       if (found == Obstruction::NONE)
         found = collision_.test(boxes[i], 0.0);
+    if (found == Obstruction::NONE && openHandTouches(grasp, opening(grasp, share)))
+      found = Obstruction::OBJECT;
     if (found == Obstruction::NONE) {
       grasp.open_width = grasp.width + 2.0 * opening(grasp, share);
       break;
@@ -168,6 +173,14 @@ bool GraspSearch::place(Grasp& grasp, GraspPlan& plan) {
     ++plan.rejections.poses;
     const Obstruction found = counted(plan.rejections, tryPose(moved, table));
     if (found == Obstruction::NONE) {
+      // where the model is a little low the tips would touch: rather nearer to them
+      Grasp back = slid(grasp, SLIDES[1]);
+      double back_table = table;
+      if (slide == 0.0 && tipsTouch(moved) &&
+          tryPose(back, back_table) == Obstruction::NONE && !tipsTouch(back)) {
+        moved = back;
+        table = back_table;
+      }
       grasp = moved;
       scorePose(grasp, table);
       return true;
@@ -219,10 +232,23 @@ void GraspSearch::runTwoJaws(GraspPlan& plan) {
     if (candidate.approach < 0 && !candidate.exact) {
       finder.refine(lines[i], max_width);
       describe(i, finder.robustness(lines[i]));
+      if (!lines[i].at_rim) {
+        const Eigen::Vector3d& axis = lines[i].axis;
+        lines[i].slope = std::max({lines[i].slope,
+                                   collision_.seenSlope(grasps[i].contacts[0], axis),
+                                   collision_.seenSlope(grasps[i].contacts[1], -axis)});
+        if (lines[i].slope > options_.friction ||
+            !finder.standsShift(lines[i], collision_.scatter())) {
+          ++plan.rejections.slipping;
+          continue;
+        }
+      }
       for (GraspContact& contact : grasps[i].contacts)
         contact.observed = collision_.observed(contact, lines[i].at_rim);
       scoreContacts(grasps[i], lines[i].slope, grasps[i].scores.robustness);
-      if (grasps[i].scores.observed < options_.min_observed) {
+      const std::vector<GraspContact>& contacts = grasps[i].contacts;
+      if (grasps[i].scores.observed < options_.min_observed ||
+          collision_.seenThrough(contacts[0]) || collision_.seenThrough(contacts[1])) {
         ++plan.rejections.unseen;
         continue;
       }

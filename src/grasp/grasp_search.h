@@ -64,6 +64,11 @@ private:
   /** \brief Distance to the table where the hand is drawn back if that helps [m]. */
   double bestTableClearance(const Grasp& grasp,
                             const std::vector<OrientedBox>& hand) const;
+  /** \brief Whether the fingers of the open hand meet the object where it was measured.
+   */
+  bool openHandTouches(const Grasp& grasp, double opening) const;
+  /** \brief Whether the fingers' tips are nearer to the object than the palm may be. */
+  bool tipsTouch(const Grasp& grasp) const;
   /** \brief Tests the pose, drawn back if that frees it; on success moves the grasp
    * there and completes its score. */
   bool place(Grasp& grasp, GraspPlan& plan);

@@ -40,6 +40,14 @@ public:
   bool anyIn(const OrientedBox& box, double margin) const;
   /** \brief Whether a point lies within \a radius of \a center. */
   bool anyNear(const Eigen::Vector3d& center, double radius) const;
+  /** \brief Calls a function with the first and one past the last place in points() of
+   * each cell that has any. */
+  template <typename Function>
+  void eachCell(const Function& function) const {
+    for (std::size_t c = 0; c + 1 < begins_.size(); ++c)
+      if (begins_[c] < begins_[c + 1])
+        function(begins_[c], begins_[c + 1]);
+  }
   /** \brief One point, the mean, per cell with at least \a least points. */
   std::vector<Eigen::Vector3d> means(int least) const;
 
