@@ -85,7 +85,8 @@ StereoModel makeStereoModel(const FrontOptions& options,
     dropStrays(front, made.scene);
   const std::string input = options.left.empty() ? options.depth : options.left;
   made.result = makeModel(best ? made.scene : made.object, input, model, 0.0);
-  if (const std::string why = doubtAbout(front, made.result.report, hinted);
+  if (const std::string why =
+          doubtAbout(front, made.result.report, hinted, !model.mask.empty());
       best && !why.empty())
     throw Failure(why);
   describeFront(options, front, made.result.file);

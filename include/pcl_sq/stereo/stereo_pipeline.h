@@ -139,10 +139,13 @@ tellView(const StereoView& view, bool painted, ViewOptions& options);
 PCL_SQ_EXPORTS void tellNoise(const StereoResult& stereo, ViewOptions& options);
 
 /** \brief Why a model of the best mode is not to be trusted, a sentence, or "": it
- * fills but a piece of the box that was drawn, its points lie farther off than a hand
- * makes up for, or it leaves doubt where nobody pointed at it. \param[in] hinted
- * whether somebody did */
-PCL_SQ_EXPORTS std::string
-doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted);
+ * fills but a piece of the box that was drawn, is a piece of a flat surface that goes
+ * on, its points lie farther off than a hand makes up for, or it leaves doubt where
+ * nobody pointed at it. \param[in] hinted whether somebody did \param[in] painted
+ * whether by a mask, which says where the object ends */
+PCL_SQ_EXPORTS std::string doubtAbout(const StereoView& view,
+                                      const EstimationReport& report,
+                                      bool hinted,
+                                      bool painted = false);
 
 } // namespace pcl_sq

@@ -3,10 +3,12 @@
 #include "pcl_sq/exception.h"
 #include "pcl_sq/stereo/stereo_pipeline.h"
 #include "sensor/depth_patch.h"
+#include "stereo/pipeline/outline_edges.h"
 
 #include <opencv2/core.hpp>
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,8 +50,23 @@ void tellView(const StereoView& view, bool painted, ViewOptions& options) {
       options.mask.set(x, y, mask.at<std::uint8_t>(y, x) != 0);
 }
 
-std::string
-doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted) {
+namespace {
+
+/** \brief What was found of the object, by its outline or by depth alone. */
+cv::Mat objectOf(const StereoView& view, const CellMask& pixels) {
+  if (!view.segment.mask.empty() || pixels.cells.empty())
+    return view.segment.mask;
+  cv::Mat mask(pixels.height, pixels.width, CV_8U);
+  std::copy(pixels.cells.begin(), pixels.cells.end(), mask.ptr<std::uint8_t>());
+  return mask;
+}
+
+} // namespace
+
+std::string doubtAbout(const StereoView& view,
+                       const EstimationReport& report,
+                       bool hinted,
+                       bool painted) {
   constexpr double LEAST_FILLED = 0.4;
   // as much of outline and points must agree as of the object's pixels of any model
   constexpr double LEAST_CONFIDENCE = 0.8;
@@ -65,6 +82,11 @@ doubtAbout(const StereoView& view, const EstimationReport& report, bool hinted) 
              " % of it only, so it is not what the box was drawn around; give a "
              "mask of the object, or more texture to the pair.";
   }
+  // who paints a mask says where the object ends
+  if (!painted && detail::outlineEdges(view.stereo, objectOf(view, pixels)).isPiece())
+    return "what was found goes on beyond its outline as one flat surface, so it is a "
+           "piece of a wall, a table or another thing; draw the box around a whole "
+           "thing, or give a mask of the object.";
   if (report.rms_distance > FARTHEST_OFF)
     return "the object's points lie " +
            std::to_string(std::lround(1e3 * report.rms_distance)) +
@@ -113,7 +135,8 @@ bool StereoPipeline::process(const cv::Mat& left,
     result.report = estimation.getReport();
     result.failure = result.report.failure;
     if (found && options.decomposition == Decomposition::PARTS)
-      result.failure = doubtAbout(view, result.report, !options_.hint.empty());
+      result.failure = doubtAbout(
+          view, result.report, !options_.hint.empty(), !options_.hint.mask.empty());
   }
   if (result.failure.empty())
     return true;
