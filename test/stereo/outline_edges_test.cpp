@@ -11,25 +11,26 @@ using namespace pcl_sq::detail;
 
 namespace {
 
-constexpr int WIDTH = 200, HEIGHT = 160;
+constexpr int BOARD_WIDTH = 200, BOARD_HEIGHT = 160;
 constexpr float NOISE = 0.1F; // [px]
 const cv::Rect BOX(60, 50, 70, 50);
 
 /** \brief A slanted wall, with the matcher's noise. */
 StereoResult wall() {
   StereoResult stereo;
-  stereo.disparity = cv::Mat(HEIGHT, WIDTH, CV_32F);
+  stereo.disparity = cv::Mat(BOARD_HEIGHT, BOARD_WIDTH, CV_32F);
   cv::theRNG().state = 3;
   cv::randn(stereo.disparity, 0.0, NOISE);
-  stereo.disparity_sigma = cv::Mat(HEIGHT, WIDTH, CV_32F, cv::Scalar(NOISE));
-  for (int v = 0; v < HEIGHT; ++v)
-    for (int u = 0; u < WIDTH; ++u)
+  stereo.disparity_sigma =
+      cv::Mat(BOARD_HEIGHT, BOARD_WIDTH, CV_32F, cv::Scalar(NOISE));
+  for (int v = 0; v < BOARD_HEIGHT; ++v)
+    for (int u = 0; u < BOARD_WIDTH; ++u)
       stereo.disparity.at<float>(v, u) += 40.0F + 0.03F * float(u) - 0.1F * float(v);
   return stereo;
 }
 
 cv::Mat maskOf(const cv::Rect& box) {
-  cv::Mat mask = cv::Mat::zeros(HEIGHT, WIDTH, CV_8U);
+  cv::Mat mask = cv::Mat::zeros(BOARD_HEIGHT, BOARD_WIDTH, CV_8U);
   mask(box).setTo(255);
   return mask;
 }
@@ -65,8 +66,8 @@ TEST(OutlineEdges, WhatStandsOnATableMayGoOnAtItsFoot) {
 
 TEST(OutlineEdges, WhatHidesAWallIsNoEdgeOfIt) {
   StereoResult stereo = wall();
-  stereo.disparity(cv::Rect(0, BOX.br().y, WIDTH, 40)) += 30.0;
-  stereo.disparity(cv::Rect(0, 0, BOX.x, HEIGHT)) += 30.0;
+  stereo.disparity(cv::Rect(0, BOX.br().y, BOARD_WIDTH, 40)) += 30.0;
+  stereo.disparity(cv::Rect(0, 0, BOX.x, BOARD_HEIGHT)) += 30.0;
   const OutlineEdges edges = outlineEdges(stereo, maskOf(BOX));
   EXPECT_LT(edges.own, 0.6);
   EXPECT_TRUE(edges.isPiece());
