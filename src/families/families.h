@@ -4,6 +4,8 @@
 
 #include "view_problem/view_problem.h"
 
+#include <functional>
+
 namespace pcl_sq::detail {
 
 /** \brief Twice the logarithm of the prior odds against a family. */
@@ -32,14 +34,19 @@ std::optional<ShapeCandidate> fitLid(const ViewProblem& problem,
                                      double sigma,
                                      const std::vector<ShapeCandidate>& candidates);
 
-/** \brief The best bent rod, if no other family is near the points.
+/** \brief The best bent rod, if no other family is near the points without filling what
+ * the object leaves open.
+ * \param[in] against what a body costs besides points and planes, in the unit frame: a
+ * block may be near the points of a bend
  * \param[in] profile of a handle: the area that it covers in the view, over the frame's
  * unit squared. It is as wide as its area over its length, and no longer than its
  * points, for its ends are in the body; 0: no handle */
-std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
-                                      double sigma,
-                                      const std::vector<ShapeCandidate>& candidates,
-                                      double profile = 0.0);
+std::optional<ShapeCandidate>
+fitBent(const ViewProblem& problem,
+        double sigma,
+        const std::vector<ShapeCandidate>& candidates,
+        const std::function<double(const Superquadric&)>& against,
+        double profile = 0.0);
 
 /** \brief Last iterations of a bent rod with other points of the problem. */
 void fitBentAgain(const ViewProblem& problem,

@@ -125,18 +125,24 @@ bool cheaperRod(const Rod& a, const Rod& b) {
 
 } // namespace
 
-std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
-                                      double sigma,
-                                      const std::vector<ShapeCandidate>& candidates,
-                                      double profile) {
+std::optional<ShapeCandidate>
+fitBent(const ViewProblem& problem,
+        double sigma,
+        const std::vector<ShapeCandidate>& candidates,
+        const std::function<double(const Superquadric&)>& against,
+        double profile) {
   const bool is_handle = profile > 0.0;
   const ShapeCandidate* best = nullptr;
+  double least = 1e300, filled = 0.0;
   // a vessel without a camera has the likelihood of a noise of its own
   for (const ShapeCandidate& c : candidates)
-    if ((problem.eye() || c.shape != ShapeClass::VESSEL) &&
-        (!best || c.cost < best->cost))
-      best = &c;
-  if (!best || !(best->cost > MISFIT * problem.observations()))
+    if (problem.eye() || c.shape != ShapeClass::VESSEL)
+      if (const double more = against(c.model); c.cost + more < least) {
+        best = &c;
+        least = c.cost + more;
+        filled = more;
+      }
+  if (!best || !(least > MISFIT * problem.observations()))
     return std::nullopt;
   std::vector<Superquadric> starts = bentStarts(problem);
   if (!best->model.isCut())
@@ -163,8 +169,9 @@ std::optional<ShapeCandidate> fitBent(const ViewProblem& problem,
   found.resize(std::min(found.size(), problem.eye() ? tuning::fit_bent::KEPT : 1));
   // of what is not bent, a bottle for instance, no arc is nearer to the points
   if (found.empty() ||
-      (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) <
-                       pointsCost(problem.coarse(), wide, best->model))))
+      (!is_handle && !(pointsCost(problem.coarse(), wide, found.front().model) +
+                           against(found.front().model) <
+                       pointsCost(problem.coarse(), wide, best->model) + filled)))
     return std::nullopt;
   const BentProblem thorough(problem, problem.medium(), sigma);
   std::optional<ShapeCandidate> chosen;

@@ -66,11 +66,12 @@ rodAlong(const PieceContext& context, const Piece& handle, const Superquadric& a
   nothing_near.cost = 1e299;
   nothing_near.model = problem.frame().toUnit(around);
   const double unit = problem.frame().scale;
-  std::optional<ShapeCandidate> rod =
-      fitBent(problem,
-              problem.noise(),
-              {nothing_near},
-              profileOf(context, handle) / (unit * unit));
+  std::optional<ShapeCandidate> rod = fitBent(
+      problem,
+      problem.noise(),
+      {nothing_near},
+      [](const Superquadric&) { return 0.0; },
+      profileOf(context, handle) / (unit * unit));
   if (rod)
     rod->model = problem.frame().toCloud(rod->model);
   return rod;

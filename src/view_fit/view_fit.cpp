@@ -109,18 +109,21 @@ ViewFit searchView(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
     if (const auto vessel =
             fitVessel(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*vessel);
+  const auto against = [&](const Superquadric& body) {
+    return objection ? objection(problem.frame().toCloud(body)) : 0.0;
+  };
   if (options.bend && options.choose_shape)
-    if (const auto bent = fitBent(problem, general.front().sigma, result.candidates))
+    if (const auto bent =
+            fitBent(problem, general.front().sigma, result.candidates, against))
       result.candidates.push_back(*bent);
   if (options.choose_shape)
     if (const auto tin = fitLid(problem, general.front().sigma, result.candidates))
       result.candidates.push_back(*tin);
-  if (objection)
-    for (ShapeCandidate& c : result.candidates) {
-      const double against = objection(problem.frame().toCloud(c.model));
-      c.cost += against;
-      c.bic += against;
-    }
+  for (ShapeCandidate& c : result.candidates) {
+    const double covers = against(c.model);
+    c.cost += covers;
+    c.bic += covers;
+  }
   scaleEvidence(result.candidates, problem.observations());
   std::sort(
       result.candidates.begin(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bent rods seen once and from all round: bananas.
+#include "families/families.h"
 #include "pcl_sq/view_fit.h"
 
 #include "fit_scene.h"
@@ -82,4 +83,32 @@ TEST(BentFit, RodSeenFromAllRoundIsOneBentPartOfItsAngleAndRadius) {
     ASSERT_TRUE(observeObject(points, int(points.cols()), 1, {}, view, observed));
     expectRod(fitObject(observed).model, rod);
   }
+}
+
+TEST(BentFit, ABlockThatFillsTheBendDoesNotKeepARodFromBeingTried) {
+  ViewScene scene = finerScene();
+  const Superquadric rod = addRod(scene, 8.0);
+  const std::vector<Eigen::Vector3d> surface = sampleUniform(rod, 1500, 7);
+  Eigen::Matrix3Xd points(3, Eigen::Index(surface.size()));
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    points.col(Eigen::Index(i)) = surface[i];
+  detail::ViewProblem problem;
+  ASSERT_TRUE(problem.prepare(points, {}, {}));
+  ShapeCandidate block; // as near to the points as the noise allows
+  block.cost = 0.0;
+  block.model.semi_axes = {0.016, 0.05, 0.08};
+  block.model.center = points.rowwise().mean();
+  block.model.rotation = rod.rotation;
+  block.model = problem.frame().toUnit(block.model);
+  constexpr double SIGMA = 0.02; // of the unit frame, some millimetre
+  EXPECT_FALSE(detail::fitBent(
+      problem, SIGMA, {block}, [](const Superquadric&) { return 0.0; }));
+  const auto filled = [&](const Superquadric& body) {
+    return body.isBent() ? 0.0 : 1e3 * double(points.cols());
+  };
+  const auto bent = detail::fitBent(problem, SIGMA, {block}, filled);
+  ASSERT_TRUE(bent);
+  MultiSuperquadric model;
+  model.parts.push_back(problem.frame().toCloud(bent->model));
+  expectRod(model, rod);
 }

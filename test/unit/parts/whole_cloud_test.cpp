@@ -176,13 +176,13 @@ TEST(WholeCloud, CutsOfABodyGainWhatItLeavesUnexplainedAndNoMore) {
   one.parts = {body};
   Eigen::Matrix3Xd points = outsideOf(one, 3e4);
   Random random(9);
-  constexpr double NOISE = 5e-4;
+  constexpr double SAMPLED_NOISE = 5e-4;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    points.col(i) +=
-        NOISE * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    points.col(i) += SAMPLED_NOISE *
+                     Eigen::Vector3d(random.normal(), random.normal(), random.normal());
   const ObservedObject observed = observe(points, Coverage::COMPLETE);
   const ObjectFitOptions options;
-  const detail::PieceContext context{observed, options, NOISE, {}, {}};
+  const detail::PieceContext context{observed, options, SAMPLED_NOISE, {}, {}};
   const auto gainOf = [&](const Superquadric& model) {
     detail::Part part;
     part.piece.fit.fit.model = model;
@@ -197,7 +197,7 @@ TEST(WholeCloud, CutsOfABodyGainWhatItLeavesUnexplainedAndNoMore) {
   longer.center.z() += 0.3 * body.semi_axes.z();
   EXPECT_GT(gainOf(longer), 2.0 * std::log(1.2) * n);
   Superquadric thinner = body;
-  thinner.semi_axes.x() -= 3.0 * NOISE;
+  thinner.semi_axes.x() -= 3.0 * SAMPLED_NOISE;
   EXPECT_GT(gainOf(thinner), right + 0.2 * n);
 }
 
