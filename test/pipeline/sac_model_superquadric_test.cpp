@@ -13,10 +13,10 @@ using pcl::PointXYZ;
 using pcl_sq::SampleConsensusModelSuperquadric;
 using pcl_sq::Superquadric;
 using pcl_sq::test::Random;
-using Cloud = pcl::PointCloud<PointXYZ>;
 
 namespace {
 
+using Cloud = pcl::PointCloud<PointXYZ>;
 using Model = SampleConsensusModelSuperquadric<PointXYZ>;
 
 /** \brief Opens what RANSAC calls. */

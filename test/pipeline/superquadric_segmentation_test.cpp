@@ -206,8 +206,7 @@ TEST(SampleConsensusModel, OfCloudsWithNanFindsWhatIsThere) {
   const float nan = std::nanf("");
   for (int i = 0; i < 1000; ++i)
     cloud->push_back(Point(nan, nan, nan));
-  using Model = SampleConsensusModelSuperquadric<Point>;
-  Model::Ptr model(new Model(cloud));
+  const auto model = pcl::make_shared<SampleConsensusModelSuperquadric<Point>>(cloud);
   model->setRadiusLimits(0.01, 0.15);
   pcl::RandomSampleConsensus<Point> ransac(model, 0.003);
   ransac.setMaxIterations(100);
