@@ -13,7 +13,7 @@ constexpr std::size_t POINTS = 512;
 constexpr double EXACT = 1e-5;      ///< a sigma that only the right shape has
 constexpr double SYSTEMATIC = 0.35; ///< a correlation that noise never has
 constexpr double MANY_OUTLIERS = 0.03;
-constexpr double MANY = 0.4;     ///< of the points: a body of many may be another one's
+constexpr double MANY = 0.4;     ///< outliers: with fewer no wrong fit was ever seen
 constexpr double CROWDED = 0.75; ///< of the outliers' share
 
 /** \brief The ten low bits of a number, two zeros after each. */
