@@ -2,8 +2,8 @@
 #include "pcl_sq/grasp_planner.h"
 
 #include "grasp/grasp_search.h"
-#include "grasp/largest_radius.h"
 #include "pcl_sq/grasp_quality.h"
+#include "quality/largest_radius.h"
 
 #include <algorithm>
 #include <sstream>

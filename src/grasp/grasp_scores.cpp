@@ -66,7 +66,7 @@ bool GraspSearch::openHandTouches(const Grasp& grasp, double opening) const {
   const std::vector<OrientedBox> boxes =
       gripper_.boxes(grasp.position, grasp.rotation, reach);
   return std::any_of(boxes.begin(), boxes.end() - 1, [&](const OrientedBox& finger) {
-    return collision_.meetsPoints(finger, std::min(options_.clearance, 0.5 * opening));
+    return measured_.meets(finger, std::min(options_.clearance, 0.5 * opening));
   });
 }
 

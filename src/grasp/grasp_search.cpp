@@ -42,7 +42,8 @@ GraspSearch::GraspSearch(const MultiSuperquadric& object,
                          const Gripper& gripper,
                          const GraspPlannerOptions& options)
     : object_(object), scene_(scene), gripper_(gripper), options_(options),
-      collision_(object, scene, gripper, options) {
+      measured_(object, scene, options),
+      collision_(object, scene, gripper, options, measured_) {
   double volume = 0.0;
   centre_.setZero();
   for (const Superquadric& part : object.parts) {
@@ -146,7 +147,7 @@ Obstruction GraspSearch::tryPose(Grasp& grasp, double& table) const {
     if (found == Obstruction::NONE && !palm_is_free) {
       found = collision_.test(boxes.back(), options_.margin);
       if (found == Obstruction::NONE &&
-          collision_.meetsPoints(boxes.back(), options_.clearance))
+          measured_.meets(boxes.back(), options_.clearance))
         found = Obstruction::OBJECT;
       if (found != Obstruction::NONE)
         return found;
@@ -235,20 +236,20 @@ void GraspSearch::runTwoJaws(GraspPlan& plan) {
       if (!lines[i].at_rim) {
         const Eigen::Vector3d& axis = lines[i].axis;
         lines[i].slope = std::max({lines[i].slope,
-                                   collision_.seenSlope(grasps[i].contacts[0], axis),
-                                   collision_.seenSlope(grasps[i].contacts[1], -axis)});
+                                   measured_.slope(grasps[i].contacts[0], axis),
+                                   measured_.slope(grasps[i].contacts[1], -axis)});
         if (lines[i].slope > options_.friction ||
-            !finder.standsShift(lines[i], collision_.scatter())) {
+            !finder.standsShift(lines[i], measured_.scatter())) {
           ++plan.rejections.slipping;
           continue;
         }
       }
       for (GraspContact& contact : grasps[i].contacts)
-        contact.observed = collision_.observed(contact, lines[i].at_rim);
+        contact.observed = measured_.observed(contact, lines[i].at_rim);
       scoreContacts(grasps[i], lines[i].slope, grasps[i].scores.robustness);
       const std::vector<GraspContact>& contacts = grasps[i].contacts;
       if (grasps[i].scores.observed < options_.min_observed ||
-          collision_.seenThrough(contacts[0]) || collision_.seenThrough(contacts[1])) {
+          measured_.seenThrough(contacts[0]) || measured_.seenThrough(contacts[1])) {
         ++plan.rejections.unseen;
         continue;
       }

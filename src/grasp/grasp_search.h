@@ -81,6 +81,7 @@ private:
   const GraspScene& scene_;
   const Gripper& gripper_;
   const GraspPlannerOptions& options_;
+  MeasuredSurface measured_;
   HandCollision collision_;
   Eigen::Vector3d centre_;   ///< of gravity, overlaps counted twice [m]
   double radius_;            ///< of a ball about the centre that holds the object [m]

@@ -49,7 +49,7 @@ std::vector<Grasp> GraspSearch::contactSets(GraspRejections& rejections,
         contact.position = line.points[1];
         contact.normal = line.normals[1];
         contact.part = line.parts[1];
-        contact.observed = collision_.observed(contact);
+        contact.observed = measured_.observed(contact);
         grasp.contacts.push_back(contact);
         const double cosine = outward.dot(contact.normal);
         slope = std::max(slope,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The point of a convex body that reaches farthest along the way to a point of it is
 // at least as far away: repeating this climbs to a local maximum.
-#include "grasp/largest_radius.h"
+#include "quality/largest_radius.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace pcl_sq::detail {
 
 namespace {
 
-constexpr int MAX_STEPS = 100;
+constexpr int MAX_CLIMBS = 100;
 constexpr double CONVERGED = 1e-12; ///< relative gain of a step
 
 double climb(const Superquadric& part,
@@ -17,7 +17,7 @@ double climb(const Superquadric& part,
              const Eigen::Vector3d& start) {
   double radius = 0.0;
   Eigen::Vector3d way = start;
-  for (int step = 0; step < MAX_STEPS; ++step) {
+  for (int step = 0; step < MAX_CLIMBS; ++step) {
     way = part.supportPoint(way) - from;
     const double next = way.norm();
     if (!(next > (1.0 + CONVERGED) * radius))
