@@ -29,14 +29,14 @@ Description bestOf(std::vector<Description>& tries) {
 
 } // namespace
 
-WholeMoves::WholeMoves(const PieceContext& context, int wanted)
+WholeMoves::WholeMoves(const PieceContext& context, int wanted, double min_gain)
     : context_(context),
       plain_options_(withoutFamilies(context.options)), plain_{context.observed,
                                                                plain_options_,
                                                                context.noise,
                                                                context.precision,
                                                                context.limits},
-      graph_(context.observed.points), wanted_(wanted),
+      graph_(context.observed.points), wanted_(wanted), min_gain_(min_gain),
       threads_(context.options.fit.threads) {}
 
 double WholeMoves::score(const std::vector<Member>& members) const {
@@ -98,7 +98,7 @@ void WholeMoves::askFamilies(Description& d) const {
     settle(d);
 }
 
-Description WholeMoves::cutOnce(Description& d) const {
+std::vector<Description> WholeMoves::cutOnce(Description& d) const {
   struct Choice {
     std::size_t member, way;
     double gain;
@@ -135,15 +135,23 @@ Description WholeMoves::cutOnce(Description& d) const {
     }
     tries[i].score = score(members);
   });
-  double least = 1e299;
-  for (const Description& t : tries)
-    least = std::min(least, t.score);
+  std::map<std::size_t, double> least; // by the number of parts: more explain more
+  for (const Description& t : tries) {
+    double& known = least.emplace(t.members.size(), 1e299).first->second;
+    known = std::min(known, t.score);
+  }
   parallelFor(tries.size(), threads_, [&](std::size_t i) {
-    if (tries[i].score < least + QUICK_SLACK)
+    if (tries[i].score < least.at(tries[i].members.size()) + QUICK_SLACK)
       settle(tries[i]);
   });
-  Description best = bestOf(tries);
-  askFamilies(best);
+  std::vector<Description> best;
+  for (const auto& entry : least) {
+    best.emplace_back();
+    for (Description& t : tries)
+      if (t.members.size() == entry.first && t.score < best.back().score)
+        best.back() = std::move(t);
+    askFamilies(best.back());
+  }
   return best;
 }
 

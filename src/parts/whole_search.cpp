@@ -21,8 +21,8 @@ public:
               bool exactly,
               double min_gain,
               double price)
-      : moves_(context, wanted), wanted_(std::size_t(wanted)), exactly_(exactly),
-        min_gain_(min_gain), price_(price) {}
+      : moves_(context, wanted, min_gain), wanted_(std::size_t(wanted)),
+        exactly_(exactly), min_gain_(min_gain), price_(price) {}
 
   Description run(Part whole);
 
@@ -89,7 +89,8 @@ Description WholeSearch::run(Part whole) {
     for (std::size_t k = 1; k < found_.size() && k < wanted_; ++k)
       if (isPromising(k) && !found_[k].was_cut) {
         found_[k].was_cut = true;
-        changed = note(moves_.cutOnce(found_[k])) || changed;
+        for (Description& d : moves_.cutOnce(found_[k]))
+          changed = note(std::move(d)) || changed;
       }
     for (std::size_t k = found_.size() - 1; k > 1; --k)
       if (isPromising(k) && !found_[k].was_merged) {
@@ -144,7 +145,7 @@ void refineParts(const PieceContext& context, std::vector<Piece>& pieces) {
     d.members.push_back({std::move(part), nullptr});
   }
   d.score = 1e298; // that of the noise they were found by is none
-  WholeMoves(context, int(pieces.size())).askFamilies(d);
+  WholeMoves(context, int(pieces.size()), 0.0).askFamilies(d);
   pieces.clear();
   for (Member& m : d.members)
     pieces.push_back(std::move(m.part.piece));

@@ -13,7 +13,7 @@ namespace pcl_sq::detail {
 /** \brief Parts that may take another's place, quickly fitted. */
 struct Way {
   std::vector<Part> parts;
-  double gain = -1e300; ///< of the score, by quick fits
+  double gain = -1e300; ///< of the score and the parts' price, by quick fits
 };
 
 /** \brief A part and the ways to cut it, once they have been looked for. */
@@ -34,16 +34,17 @@ struct Description {
 /** \brief The moves from one description to another with more parts or fewer. */
 class WholeMoves {
 public:
-  /** \param[in] wanted most parts of a description */
-  WholeMoves(const PieceContext& context, int wanted);
+  /** \param[in] wanted most parts of a description
+   * \param[in] min_gain of the score, for one more part */
+  WholeMoves(const PieceContext& context, int wanted, double min_gain);
   WholeMoves(const WholeMoves&) = delete;
   WholeMoves& operator=(const WholeMoves&) = delete;
 
   [[nodiscard]] double score(const std::vector<Member>& members) const;
 
-  /** \brief The best description with one of the members cut; score 1e300 if none can
-   * be. \param[in,out] d gains the ways to cut its members */
-  [[nodiscard]] Description cutOnce(Description& d) const;
+  /** \brief The best descriptions with one of the members cut, one of each number of
+   * parts. \param[in,out] d gains the ways to cut its members */
+  [[nodiscard]] std::vector<Description> cutOnce(Description& d) const;
 
   /** \brief The best description with one part less: two neighbours made one, or one
    * left out and its points given to the others. */
@@ -69,6 +70,7 @@ private:
   PieceContext plain_; ///< of quick fits: no tapers, bends
   CloudGraph graph_;
   int wanted_;
+  double min_gain_;
   unsigned int threads_;
   /** \brief Two neighbours as one, by their traceNumber(). */
   std::map<std::pair<std::size_t, std::size_t>, Part> known_;

@@ -109,7 +109,8 @@ std::vector<Way> WholeMoves::quickWays(const Part& part, double rest, int room) 
       misfit += p.piece.misfit;
       area += areaOf(p.piece.fit.fit.model);
     }
-    way.gain = -misfit - 2.0 * context_.observed.effective_points * std::log(area);
+    way.gain = -misfit - 2.0 * context_.observed.effective_points * std::log(area) -
+               min_gain_ * double(way.parts.size());
   }
   keepBest(ways, SCREENED);
   return ways;
@@ -168,7 +169,8 @@ void WholeMoves::findWays(Description& d, std::size_t k) const {
     for (Part& p : ways[w].parts)
       if (!p.trace)
         traceWithinBox(plain_, p);
-    ways[w].gain = d.score - scoreWith(context_, d, k, ways[w]);
+    ways[w].gain = d.score - scoreWith(context_, d, k, ways[w]) -
+                   min_gain_ * double(ways[w].parts.size() - 1);
   });
   keepBest(ways, KEPT);
   member.ways = std::make_shared<const std::vector<Way>>(std::move(ways));
