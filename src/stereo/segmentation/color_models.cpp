@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo/segmentation/color_models.h"
 
+#include "stereo/segmentation/minimum_cut.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace pcl_sq::detail {
 namespace {
@@ -36,13 +40,87 @@ cv::Mat histogramOf(const cv::Mat& hsv, const cv::Mat& mask) {
   return h;
 }
 
+/** \brief A mixture of Gaussians as cv::grabCut gives it: weights, means, covariances.
+ */
+class ColorMixture {
+public:
+  explicit ColorMixture(const cv::Mat& model) {
+    constexpr int COUNT = 5;
+    const auto* weights = model.ptr<double>();
+    const double* means = weights + COUNT;
+    const double* covariances = means + 3 * COUNT;
+    for (int k = 0; k < COUNT; ++k)
+      if (weights[k] > 0.0) {
+        const cv::Matx33d covariance(covariances + 9 * k);
+        parts_.push_back({weights[k] / std::sqrt(cv::determinant(covariance)),
+                          cv::Vec3d(means + 3 * k),
+                          covariance.inv()});
+      }
+  }
+
+  double logDensity(const cv::Vec3b& color) const {
+    constexpr double LEAST = 1e-300; // of which there is a logarithm
+    double sum = LEAST;
+    for (const Part& part : parts_) {
+      const cv::Vec3d off = cv::Vec3d(color) - part.mean;
+      sum += part.height * std::exp(-0.5 * off.dot(part.inverse * off));
+    }
+    return std::log(sum);
+  }
+
+private:
+  struct Part {
+    double height; ///< of its middle, but for a factor of all
+    cv::Vec3d mean;
+    cv::Matx33d inverse;
+  };
+  std::vector<Part> parts_;
+};
+
+/** \brief cv::grabCut with models that are known, of the open pixels alone: a pixel
+ * that is not open weighs more than all of its neighbours there, too.
+ * \param[in] labels GC_BGD ... \return CV_8U mask */
+cv::Mat cutBand(const cv::Mat& bgr,
+                const cv::Mat& labels,
+                const ColorMixture& object,
+                const ColorMixture& background) {
+  constexpr double TOGETHER = 50.0; // Rother et al. 2004
+  constexpr double LEAST = 1e-6;    // of it, which no cut is decided by
+  const cv::Mat open = (labels & 2) != 0;
+  cv::Mat odds(bgr.size(), CV_32F, cv::Scalar(-1.0));
+  odds.setTo(1.0, (labels & 1) != 0);
+  const cv::Rect part = cv::boundingRect(open);
+  for (int y = part.y; y < part.br().y; ++y)
+    for (int x = part.x; x < part.br().x; ++x)
+      if (const auto& color = bgr.at<cv::Vec3b>(y, x); open.at<std::uint8_t>(y, x) != 0)
+        odds.at<float>(y, x) =
+            float(object.logDensity(color) - background.logDensity(color));
+  const int w = bgr.cols, h = bgr.rows;
+  const double sum = squareDifferences(bgr, {w - 1, h}, {0, 0}, {1, 0}) +
+                     squareDifferences(bgr, {w, h - 1}, {0, 0}, {0, 1}) +
+                     squareDifferences(bgr, {w - 1, h - 1}, {0, 0}, {1, 1}) +
+                     squareDifferences(bgr, {w - 1, h - 1}, {1, 0}, {0, 1});
+  const double usual = std::max(1e-3, sum / (4.0 * w * h - 3.0 * (w + h) + 2.0));
+  return minimumCut({bgr, usual, TOGETHER, LEAST}, odds, open);
+}
+
 } // namespace
+
+cv::Mat smoothHsv(const cv::Mat& bgr) {
+  cv::Mat smooth, hsv;
+  cv::GaussianBlur(bgr, smooth, {5, 5}, 0.0);
+  cv::cvtColor(smooth, hsv, cv::COLOR_BGR2HSV);
+  return hsv;
+}
 
 cv::Mat
 colorProbability(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background) {
-  cv::Mat smooth, hsv, ratio, result;
-  cv::GaussianBlur(bgr, smooth, {5, 5}, 0.0);
-  cv::cvtColor(smooth, hsv, cv::COLOR_BGR2HSV);
+  return hsvProbability(smoothHsv(bgr), object, background);
+}
+
+cv::Mat
+hsvProbability(const cv::Mat& hsv, const cv::Mat& object, const cv::Mat& background) {
+  cv::Mat ratio, result;
   const cv::Mat inside = histogramOf(hsv, object);
   const cv::Mat outside = histogramOf(hsv, background);
   // a colour that was never seen is background
@@ -93,8 +171,7 @@ cutGraph(const cv::Mat& bgr, const cv::Mat& labels, int iterations, Border borde
   full.setTo(cv::GC_BGD, labels == cv::GC_BGD);
   if (cv::countNonZero(full & 1) == 0 || cv::countNonZero((full & 1) == 0) == 0)
     return large;
-  cv::grabCut(bgr, full, {}, back, front, 1, cv::GC_EVAL_FREEZE_MODEL);
-  return (full & 1) * 255;
+  return cutBand(bgr, full, ColorMixture(front), ColorMixture(back));
 }
 
 cv::Mat componentAt(const cv::Mat& mask, const cv::Point& place) {

@@ -6,11 +6,17 @@
 
 namespace pcl_sq::detail {
 
+/** \brief Hue, saturation and value of a smoothed image, as colours are told apart. */
+cv::Mat smoothHsv(const cv::Mat& bgr);
+
 /** \brief Probability (CV_8U, 255 = 1) that a pixel's colour is the object's: ratio of
  * HSV histograms, back-projected (Swain & Ballard 1991).
  * \param[in] object, background CV_8U masks of samples */
 cv::Mat
 colorProbability(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background);
+/** \brief The same of what smoothHsv() gave, where several samples of it are learnt. */
+cv::Mat
+hsvProbability(const cv::Mat& hsv, const cv::Mat& object, const cv::Mat& background);
 
 /** \brief Pixels that a threshold at one half keeps, without specks. */
 cv::Mat cleanMask(const cv::Mat& probability);

@@ -28,6 +28,7 @@ DepthGrid::DepthGrid(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
       points->emplace_back(p.x, p.y, p.z);
     }
   findNormals();
+  findSteps();
   findFolds();
 }
 
@@ -70,13 +71,16 @@ void DepthGrid::findNormals() {
   }
 }
 
-bool DepthGrid::isStep(int u, int v) const {
+void DepthGrid::findSteps() {
   // of a ball's outline nothing but the outermost 6 % of its radius is steeper
-  static const float STEEPEST = float(std::cos(70.0 * M_PI / 180.0));
-  const pcl::PointXYZ& p = at(u, v);
-  const auto n = (*normals)[std::size_t(v) * std::size_t(width) + std::size_t(u)]
-                     .getNormalVector3fMap();
-  return !n.isZero() && -n.dot(p.getVector3fMap().normalized()) < STEEPEST;
+  const auto steepest = float(std::cos(70.0 * M_PI / 180.0));
+  steps_ = cv::Mat::zeros(height, width, CV_8U);
+  for (const pcl::index_t i : finite) {
+    const auto n = (*normals)[std::size_t(i)].getNormalVector3fMap();
+    const auto p = (*points)[std::size_t(i)].getVector3fMap();
+    if (!n.isZero() && -n.dot(p.normalized()) < steepest)
+      steps_.ptr<std::uint8_t>()[i] = 255;
+  }
 }
 
 float DepthGrid::medianDepth() const {
@@ -145,7 +149,7 @@ float DepthGrid::foldAt(int u, int v) const {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
   };
   const int r = side_ / 2 + 1; // windows to both sides have nothing in common
-  float widest = 0.0F;
+  float likeness = 1.0F;       // of the normals that differ most
   for (const cv::Point d : {cv::Point(r, 0), {0, r}, {r, r}, {r, -r}}) {
     const int u1 = u - d.x, v1 = v - d.y, u2 = u + d.x, v2 = v + d.y;
     if (std::min({u1, v1, u2, v2}) < 0 || std::max(u1, u2) >= width ||
@@ -158,9 +162,9 @@ float DepthGrid::foldAt(int u, int v) const {
     const Eigen::Vector3f apart =
         at(u2, v2).getVector3fMap() - at(u1, v1).getVector3fMap();
     if ((n2 - n1).dot(apart) < 0.0F)
-      widest = std::max(widest, std::acos(std::clamp(n1.dot(n2), -1.0F, 1.0F)));
+      likeness = std::min(likeness, n1.dot(n2));
   }
-  return widest;
+  return std::acos(std::max(-1.0F, likeness));
 }
 
 void DepthGrid::findFolds() {
@@ -225,18 +229,21 @@ cv::Mat labelPatches(const DepthGrid& grid,
   constexpr float JUMP = 0.025f; // of the depth, between neighbours
   constexpr int REACH = 1;       // neighbours: what is farther lies beyond a step
   cv::Mat labels = cv::Mat::zeros(grid.height, grid.width, CV_32S);
-  const auto counts = [&](int u, int v) {
-    const auto& p = grid.at(u, v);
-    return std::isfinite(p.z) && !grid.isStep(u, v) && !grid.isFold(u, v) &&
-           std::all_of(planes.begin(), planes.end(), [&](const DepthPlane& plane) {
-             return plane.head<3>().dot(p.getVector3fMap()) + plane[3] > tolerance;
-           });
-  };
+  cv::Mat counts = cv::Mat::zeros(grid.height, grid.width, CV_8U);
+  for (const pcl::index_t i : grid.finite) {
+    const int u = i % grid.width, v = i / grid.width;
+    const auto p = grid.at(u, v).getVector3fMap();
+    if (!grid.isStep(u, v) && !grid.isFold(u, v) &&
+        std::all_of(planes.begin(), planes.end(), [&](const DepthPlane& plane) {
+          return plane.head<3>().dot(p) + plane[3] > tolerance;
+        }))
+      counts.ptr<std::uint8_t>()[i] = 255;
+  }
   *count = 0;
   std::vector<cv::Point> stack;
   for (const pcl::index_t i : grid.finite) {
     const cv::Point seed(i % grid.width, i / grid.width);
-    if (labels.at<int>(seed) != 0 || !counts(seed.x, seed.y))
+    if (labels.at<int>(seed) != 0 || counts.at<std::uint8_t>(seed) == 0)
       continue;
     labels.at<int>(seed) = ++*count;
     stack.assign(1, seed);
@@ -249,7 +256,8 @@ cv::Mat labelPatches(const DepthGrid& grid,
       for (int v = std::max(0, at.y - REACH); v <= bottom; ++v)
         for (int u = std::max(0, at.x - REACH); u <= right; ++u) {
           int& label = labels.at<int>(v, u);
-          if (label != 0 || !counts(u, v) || std::abs(grid.at(u, v).z - z) > JUMP * z)
+          if (label != 0 || counts.at<std::uint8_t>(v, u) == 0 ||
+              std::abs(grid.at(u, v).z - z) > JUMP * z)
             continue;
           label = *count;
           stack.emplace_back(u, v);

@@ -30,7 +30,7 @@ struct DepthGrid {
   std::vector<float> medianDepths(const cv::Mat& labels, int count) const;
   /** \brief Whether the surface at a cell is seen so aslant that it is none: a step
    * between two of them, which matching has smeared over its window. */
-  bool isStep(int u, int v) const;
+  bool isStep(int u, int v) const { return steps_.at<std::uint8_t>(v, u) != 0; }
   /** \brief Whether a fold runs through a cell that opens to the camera: there one
    * thing stands on another or leans on it. */
   bool isFold(int u, int v) const { return folds_.at<float>(v, u) > least_fold_; }
@@ -44,10 +44,12 @@ struct DepthGrid {
 
 private:
   int side_ = 0;  ///< of the window that normals are taken over, in cells
+  cv::Mat steps_; ///< CV_8U, whether each cell is one
   cv::Mat folds_; ///< CV_32F, of each cell the angle that opens widest [rad]
   float least_fold_ = 0.0F;
 
   void findNormals();
+  void findSteps();
   void findFolds();
   float foldAt(int u, int v) const;
 };

@@ -2,9 +2,9 @@
 #include "stereo/segmentation/joint_cut.h"
 
 #include "stereo/segmentation/color_models.h"
+#include "stereo/segmentation/minimum_cut.h"
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/imgproc/detail/gcgraph.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,6 @@ constexpr int LARGEST_JOINT_CUT =
 constexpr double TOGETHER = 2.0;
 constexpr float SURE = 1e3F;        ///< odds that nothing outweighs
 constexpr float LIKELY = 0.5F;      ///< odds by depth from which colours are learnt
-constexpr float KNOWN = 2.0F;       ///< and from which colours must agree with it
 constexpr double MOST_TRUST = 0.98; ///< colours are never sure
 
 /** \brief Colours' odds, and how often they agree with what is known. */
@@ -29,13 +28,13 @@ struct Colors {
 };
 
 Colors
-learnColors(const cv::Mat& bgr, const cv::Mat& object, const cv::Mat& background) {
+learnColors(const cv::Mat& hsv, const cv::Mat& object, const cv::Mat& background) {
   Colors colors;
-  colors.odds = cv::Mat::zeros(bgr.size(), CV_32F);
+  colors.odds = cv::Mat::zeros(hsv.size(), CV_32F);
   const int inside = cv::countNonZero(object), outside = cv::countNonZero(background);
   if (inside == 0 || outside == 0)
     return colors;
-  const cv::Mat p = colorProbability(bgr, object, background);
+  const cv::Mat p = hsvProbability(hsv, object, background);
   const double right = cv::countNonZero((p > 127) & object) / double(inside);
   const double left = cv::countNonZero((p <= 127) & background) / double(outside);
   colors.trust = std::clamp(0.5 * (right + left), 0.5, MOST_TRUST);
@@ -55,62 +54,16 @@ cv::Mat openOf(const cv::Mat& odds) {
   return cv::abs(odds) < 0.5F * SURE;
 }
 
-/** \brief The cut of least cost. \param[in] odds CV_32F \param[in] open pixels whose
- * side is looked for; the others are on that of their odds */
-cv::Mat minimumCut(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& open) {
+/** \brief What borders between pixels cost in the joint cut. */
+Borders bordersOf(const cv::Mat& bgr) {
+  constexpr double LEAST = 1e-3; // share of the cost that any border has
   cv::Mat image;
   cv::GaussianBlur(bgr, image, {3, 3}, 0.0);
-  const cv::Point beside[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
-  const auto difference = [&image](const cv::Point& a, const cv::Point& b) {
-    const cv::Vec3d d =
-        cv::Vec3d(image.at<cv::Vec3b>(a)) - cv::Vec3d(image.at<cv::Vec3b>(b));
-    return d.dot(d);
-  };
-  const cv::Rect all(0, 0, bgr.cols, bgr.rows);
-  double sum = 0.0;
-  for (int y = 0; y + 1 < bgr.rows; ++y)
-    for (int x = 0; x + 1 < bgr.cols; ++x)
-      sum += difference({x, y}, {x + 1, y}) + difference({x, y}, {x, y + 1});
+  const cv::Size size = bgr.size() - cv::Size(1, 1);
+  const double sum = squareDifferences(image, size, {0, 0}, {1, 0}) +
+                     squareDifferences(image, size, {0, 0}, {0, 1});
   const double usual = std::max(1.0, sum / (2.0 * double(bgr.total())));
-  const int count = cv::countNonZero(open);
-  cv::detail::GCGraph<double> graph(count, 4 * count);
-  cv::Mat index(bgr.size(), CV_32S, cv::Scalar(-1));
-  for (int y = 0; y < bgr.rows; ++y)
-    for (int x = 0; x < bgr.cols; ++x)
-      if (open.at<std::uint8_t>(y, x) != 0) {
-        const auto o = double(odds.at<float>(y, x));
-        const int i = graph.addVtx();
-        index.at<int>(y, x) = i;
-        graph.addTermWeights(i, std::max(o, 0.0), std::max(-o, 0.0));
-      }
-  for (int y = 0; y < bgr.rows; ++y)
-    for (int x = 0; x < bgr.cols; ++x)
-      for (const cv::Point& d : beside) {
-        const cv::Point a(x, y), b = a + d;
-        if (!all.contains(b))
-          continue;
-        const int i = index.at<int>(a), k = index.at<int>(b);
-        if (i < 0 && k < 0)
-          continue;
-        const double weight =
-            TOGETHER *
-            std::max(1e-3, std::exp(-difference(a, b) / (2.0 * usual)) / cv::norm(d));
-        if (i >= 0 && k >= 0)
-          graph.addEdges(i, k, weight, weight);
-        else { // the other pixel's side is known
-          const bool object = odds.at<float>(i >= 0 ? b : a) > 0.0F;
-          graph.addTermWeights(
-              std::max(i, k), object ? weight : 0.0, object ? 0.0 : weight);
-        }
-      }
-  if (count > 0)
-    graph.maxFlow();
-  cv::Mat mask = (odds > 0.0F);
-  for (int y = 0; y < bgr.rows; ++y)
-    for (int x = 0; x < bgr.cols; ++x)
-      if (const int i = index.at<int>(y, x); i >= 0)
-        mask.at<std::uint8_t>(y, x) = graph.inSourceSegment(i) ? 255 : 0;
-  return mask;
+  return {image, usual, TOGETHER, LEAST};
 }
 
 /** \brief The same where the border is known to a few pixels: only a band along it is
@@ -124,7 +77,7 @@ cutAlong(const cv::Mat& bgr, const cv::Mat& odds, const cv::Mat& mask, int width
   cv::dilate(mask, outer, band);
   fixed.setTo(SURE, inner);
   fixed.setTo(-SURE, outer == 0);
-  return minimumCut(bgr, fixed, openOf(fixed));
+  return minimumCut(bordersOf(bgr), fixed, openOf(fixed));
 }
 
 /** \brief What is known of a pixel before its colour is asked. */
@@ -134,23 +87,29 @@ struct Known {
 };
 
 /** \brief Odds of depth and of the colours that object and background have. */
-cv::Mat jointOdds(const cv::Mat& bgr,
+cv::Mat jointOdds(const cv::Mat& hsv,
                   const Known& known,
                   const cv::Mat& object,
                   const cv::Mat& background) {
-  cv::Mat odds = learnColors(bgr, object, background).odds + known.depth_odds;
+  cv::Mat odds = learnColors(hsv, object, background).odds + known.depth_odds;
   odds.setTo(-1.0F, (known.outside != 0) & (odds > -1.0F));
   odds.setTo(-SURE, known.beyond);
   return odds;
 }
 
-/** \brief Colours are learnt from the cut, and cut anew. */
+/** \brief Colours are learnt from the cut, and cut anew, until they give the same. */
 cv::Mat cutInRounds(const cv::Mat& bgr, const Known& known, int rounds) {
   cv::Mat object = (known.depth_odds > LIKELY) & (known.outside == 0);
   cv::Mat background = known.outside | (known.depth_odds < -LIKELY);
+  const cv::Mat hsv = smoothHsv(bgr);
+  const Borders borders = bordersOf(bgr);
   for (int round = 0; round < rounds; ++round) {
-    const cv::Mat odds = jointOdds(bgr, known, object, background);
-    object = minimumCut(bgr, odds, openOf(odds));
+    const cv::Mat odds = jointOdds(hsv, known, object, background);
+    const cv::Mat cut = minimumCut(borders, odds, openOf(odds));
+    const bool same = round > 0 && cv::countNonZero(cut != object) == 0;
+    object = cut;
+    if (same)
+      break;
     background = object == 0;
   }
   return object;
@@ -158,23 +117,8 @@ cv::Mat cutInRounds(const cv::Mat& bgr, const Known& known, int rounds) {
 
 } // namespace
 
-double agreement(const cv::Mat& mask, const cv::Rect& box, const cv::Mat& depth_odds) {
-  const cv::Mat in_box = mask(box), odds = depth_odds(box);
-  const cv::Mat object = odds > KNOWN, background = odds < -KNOWN;
-  const int inside = cv::countNonZero(object), outside = cv::countNonZero(background);
-  if (inside == 0)
-    return 1.0;
-  const double right = cv::countNonZero(in_box & object) / double(inside);
-  const double left =
-      outside == 0 ? 1.0
-                   : 1.0 - cv::countNonZero(in_box & background) / double(outside);
-  // a few pixels of a kind say little
-  const double weight = outside / double(inside + outside);
-  return std::min(right, 1.0 - weight * (1.0 - left));
-}
-
 double separability(const cv::Mat& bgr, const cv::Mat& mask) {
-  return learnColors(bgr, mask, mask == 0).trust;
+  return learnColors(smoothHsv(bgr), mask, mask == 0).trust;
 }
 
 cv::Mat cutJointly(const cv::Mat& bgr,
@@ -207,7 +151,7 @@ cv::Mat cutJointly(const cv::Mat& bgr,
       cutInRounds(small, roughly, rounds), large, bgr.size(), 0, 0, cv::INTER_LINEAR);
   large = large > 127;
   return cutAlong(bgr,
-                  jointOdds(bgr, known, large, large == 0),
+                  jointOdds(smoothHsv(bgr), known, large, large == 0),
                   large,
                   2 * static_cast<int>(std::ceil(1.0 / s)) + 3);
 }

@@ -6,11 +6,6 @@
 
 namespace pcl_sq::detail {
 
-/** \brief Share of a box's pixels of known depth that a mask puts on the side of their
- * depth, object and background alike; 1 where depth tells nothing.
- * \param[in] mask CV_8U \param[in] depth_odds as in cutJointly() */
-double agreement(const cv::Mat& mask, const cv::Rect& box, const cv::Mat& depth_odds);
-
 /** \brief How well colours tell a mask from what is beside it, 0.5 to 1. */
 double separability(const cv::Mat& bgr, const cv::Mat& mask);
 

@@ -42,7 +42,7 @@ cv::Mat brightened(const cv::Mat& bgr) {
 constexpr double HALF_SEEN = 0.4; // of a box's area, by the box of what is found in it
 /** The same where depth helps: boxes drawn by hand are off by a tenth on each side. */
 constexpr double DRAWN = 0.75;
-constexpr double AGREES = 0.85; // of pixels that depth and colours see alike
+constexpr double AGREES = 0.85; // of pixels that colours put on their side
 constexpr double PIECE = 0.7;   // colours that see less of it than this see a piece
 
 bool sameSize(const cv::Mat& image, const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
@@ -144,29 +144,31 @@ bool ObjectSegmenter::segmentBox(const cv::Mat& image,
   const bool deep =
       !cloud.empty() && options_.method == SegmentMethod::GRABCUT &&
       depthOddsInBox(cloud, inside, window, options_.disparity_scale, depth_odds);
-  byColors(deep ? Border::ROUGH : Border::FINE);
   if (deep) {
     const cv::Rect inner = inside - window.tl();
-    const double right = std::min(agreement(mask(window), inner, depth_odds),
-                                  separability(bgr(window), mask(window)));
     cv::Mat jointly = cv::Mat::zeros(bgr.size(), CV_8U);
     cutJointly(bgr(window), inner, depth_odds, options_.iterations)
         .copyTo(jointly(window));
     jointly = largestComponents(jointly);
-    // colours that see more of the box are believed, unless they see most of it anyhow
-    const double by_colors =
-        std::max<double>(cv::boundingRect(mask).area(), HALF_SEEN * inside.area());
-    if (cv::boundingRect(jointly).area() >=
-        std::min(by_colors, DRAWN * inside.area())) {
+    // colours that see more of the box are believed, unless depth sees most of it
+    const int seen = cv::boundingRect(jointly).area();
+    bool believed = seen >= DRAWN * inside.area();
+    if (!believed) {
+      byColors(Border::ROUGH);
+      believed = seen >= std::max<double>(cv::boundingRect(mask).area(),
+                                          HALF_SEEN * inside.area());
+    }
+    if (believed) {
       mask = jointly;
-      if (right < AGREES)
+      if (separability(bgr(window), mask(window)) < AGREES)
         notes.emplace_back(
             "colours alone do not tell the object from its surroundings, so "
             "its depth draws the outline as well; a mask of the object is "
             "surer");
     } else
       byColors(Border::FINE);
-  }
+  } else
+    byColors(Border::FINE);
   const bool told = cv::boundingRect(mask).area() >= HALF_SEEN * inside.area();
   if (!told) {
     notes.assign(1,
