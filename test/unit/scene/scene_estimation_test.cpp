@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace pcl_sq;
 using namespace pcl_sq::test;
 
@@ -44,16 +46,24 @@ TEST(SceneEstimation, FindsEveryThingOnTheTable) {
 TEST(SceneEstimation, AThingOfTheTablesColorKeepsAllItsPixels) {
   TableScene truth = fineScene();
   truth.can();
-  for (const double noise : {0.0, 0.001}) {
-    truth.noise = noise;
-    const Scene scene = estimate(cloudOf(truth, truth.inCamera(), false));
+  const auto expectAll = [&truth](const auto& cloud) {
+    const Scene scene = estimate(cloud);
     const LabelImage labels = truthOf(truth);
     int both = 0, any = 0;
     for (std::size_t i = 0; i < labels.values.size(); ++i) {
       both += labels.values[i] > 0 && scene.labels.values[i] > 0;
       any += labels.values[i] > 0 || scene.labels.values[i] > 0;
     }
-    EXPECT_GT(both, 0.95 * any) << noise;
+    EXPECT_GT(both, 0.95 * any) << truth.noise;
+  };
+  for (const double noise : {0.0, 0.001}) {
+    truth.noise = noise;
+    const auto cloud = cloudOf(truth, truth.inCamera(), false);
+    expectAll(cloud);
+    for (std::size_t i = 0; i < cloud->size(); i += 97) // the sensor misses some
+      (*cloud)[i].x = (*cloud)[i].y = (*cloud)[i].z =
+          std::numeric_limits<float>::quiet_NaN();
+    expectAll(cloud);
   }
 }
 

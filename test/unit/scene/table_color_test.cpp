@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace pcl_sq;
 using namespace pcl_sq::detail;
 
@@ -96,4 +98,34 @@ TEST(TableColor, IsNotThatOfWhatThingsEnclose) {
   CellMask left = above;
   TableColor(view, above).removeHalo(left);
   EXPECT_GT(double(left.count()), 0.9 * double(above.count()));
+}
+
+TEST(TableColor, PixelsThatASensorMissesWithinAThingAreNoBordersOfIt) {
+  // a board of nearly the table's colour, every fifth pixel of which is missing
+  Eigen::Matrix3Xf points(3, WIDTH * HEIGHT);
+  ColorMatrix colors(3, WIDTH * HEIGHT);
+  CellMask above(WIDTH, HEIGHT);
+  for (int y = 0; y < HEIGHT; ++y)
+    for (int x = 0; x < WIDTH; ++x) {
+      const int c = y * WIDTH + x;
+      const bool board = std::abs(x - 80) < 50 && std::abs(y - 60) < 40;
+      points.col(c) = Eigen::Vector3f(
+          0.002F * float(x - 80), 0.002F * float(y - 60), board ? 0.9F : 1.0F);
+      colors.col(c) << std::uint8_t(board ? 142 : 140), 140, 140;
+      if (board && x % 5 == 0 && y % 5 == 0)
+        points.col(c).setConstant(std::numeric_limits<float>::quiet_NaN());
+      above.cells[std::size_t(c)] = board && points.col(c).allFinite();
+    }
+  PinholeCamera camera;
+  camera.fx = camera.fy = 500.0;
+  TableModel table;
+  table.normal = -Eigen::Vector3d::UnitZ();
+  table.offset = 1.0;
+  table.sigma = 0.001;
+  const CloudPoints seen(points);
+  const SceneView view{seen, WIDTH, HEIGHT, colors, camera, table};
+  CellMask left = above;
+  TableColor(view, above).removeHalo(left);
+  // the corners are farther from the middle than a halo is wide
+  EXPECT_GT(double(left.count()), 0.96 * double(above.count()));
 }
