@@ -53,6 +53,9 @@ app::ModelResult fit(const std::string& path,
   std::vector<std::pair<std::string, double>> timings;
   StageTimer timer(timings, options.estimation.progress);
   input = timer.run("load", [&] { return app::loadCloud(path, options.cloud); });
+  if (!options.intrinsics.empty() && !input.cloud->isOrganized())
+    throw app::Failure("--intrinsics needs an organized cloud (an image of points); "
+                       "give the camera's place by --viewpoint.");
   return app::makeModel(input, path, options, timings.back().second);
 }
 

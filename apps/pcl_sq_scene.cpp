@@ -76,8 +76,10 @@ void check(Arguments& a) {
   if (a.input.empty() && a.front.depth.empty())
     throw UsageError("there is nothing to look at; give an organized point cloud, a "
                      "pair of images, or a depth image (--depth).");
-  if (a.hasImages())
+  if (a.hasImages()) {
     checkPairOptions(a.front);
+    a.model.cloud.unit_option = unitOptionOf(a.front);
+  }
   for (const std::string& file : {a.input, a.front.right, a.front.depth, a.labels})
     claimInput(file);
   for (const std::string& calibration : a.front.calib)

@@ -162,6 +162,7 @@ int work(FrontOptions front_options, ModelOptions model, const Outputs& outputs)
   front_options.mask = model.mask;
   front_options.intrinsics = model.intrinsics;
   checkFrontOptions(front_options, model.roi);
+  model.cloud.unit_option = unitOptionOf(front_options);
   claimInput(model.mask);
   if (!front_options.sequence)
     for (const std::string& input :

@@ -5,6 +5,7 @@
 #include "command_line/option_rules.h"
 #include "command_line/parse_sentences.h"
 #include "command_line/process.h"
+#include "files/files.h"
 #include "report/text.h"
 
 #include "pcl_sq/config.h"
@@ -50,10 +51,32 @@ void finishOptions(CLI::App& cli) {
   checkValues(cli);
 }
 
+bool isImage(const std::string& path) {
+  const std::string ending = extensionOf(path);
+  for (const char* image :
+       {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".tif", ".tiff"})
+    if (ending == image)
+      return true;
+  return false;
+}
+
+/** \brief The words from the last to the first, as CLI11 takes them. --calib has one
+ * file or two: where an image follows the first, the images come before. */
+std::vector<std::string> inTurn(std::vector<std::string> words) {
+  const auto calib = std::find_if(words.begin(), words.end(), [](const auto& word) {
+    return word == "--calib" || word.compare(0, 8, "--calib=") == 0;
+  });
+  const std::ptrdiff_t own = calib != words.end() && *calib == "--calib" ? 2 : 1;
+  if (words.end() - calib > own && isImage(*(calib + own)))
+    std::rotate(calib, calib + own, words.end());
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 /** \brief Reads the command line. \return whether there is work to do */
 bool parse(CLI::App& cli, int argc, char** argv, int& code) {
   try {
-    cli.parse(argc, argv);
+    cli.parse(inTurn({argv + 1, argv + argc}));
     checkOptionRules(cli);
     return true;
   } catch (const CLI::ParseError& error) {
@@ -132,9 +155,8 @@ void parseWords(const std::string& name,
   CLI::App cli("", name);
   configure(cli);
   finishOptions(cli);
-  std::reverse(words.begin(), words.end()); // as CLI11 takes them
   try {
-    cli.parse(std::move(words));
+    cli.parse(inTurn(std::move(words)));
   } catch (const CLI::ParseError& error) {
     throw UsageError(sentenceFor(error, cli));
   }

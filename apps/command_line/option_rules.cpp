@@ -31,6 +31,17 @@ bool fitsACloud(const Line& line) {
   return extensionOf(line.value("input")) != ".json";
 }
 
+/** \brief Whether an input may have faces, whose surface is sampled. */
+bool mayBeMesh(const Line& line) {
+  const std::vector<std::string> inputs = line.values("cloud");
+  return inputs.empty() ||
+         std::any_of(inputs.begin(), inputs.end(), [](const std::string& input) {
+           const std::string ending = extensionOf(input);
+           return input == "-" || ending == ".ply" || ending == ".obj" ||
+                  ending == ".stl";
+         });
+}
+
 bool inParts(const Line& line) {
   return decompositionOf(line) == "parts";
 }
@@ -220,6 +231,12 @@ const std::vector<OptionRule>& optionRules() {
         "--threads"},
        fitsACloud,
        "the input is a model already; it goes with a point cloud"},
+      {{grasp},
+       {"--unit", "--samples"},
+       [](const Line& l) { return fitsACloud(l) || l.given("--cloud"); },
+       "the input is a model already, whose lengths are metres"},
+      {{fit}, {"--samples"}, mayBeMesh, "it goes with a mesh: PLY, OBJ or STL"},
+      {{snapshot}, {"--unit", "--samples"}, with({"--cloud"}), "it goes with --cloud"},
       {{grasp},
        {"--cloud"},
        [](const Line& l) { return !fitsACloud(l); },

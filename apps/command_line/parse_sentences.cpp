@@ -139,7 +139,16 @@ std::string sentenceFor(const CLI::ParseError& error, const CLI::App& cli) {
   if (is(static_cast<const CLI::RequiredError*>(nullptr)))
     return missing(message, cli);
   if (is(static_cast<const CLI::ConfigError*>(nullptr))) {
+    if (message.find("not allowed in a") != std::string::npos)
+      return "the --config file has " +
+             app::quoted(message.substr(0, message.find(':'))) +
+             ", which belongs on the command line";
     const std::string key = behind(message, "parse ");
+    const std::size_t section = key.find(".++"); // where CLI11 begins one
+    if (section != std::string::npos)
+      return "the --config file has a section " +
+             app::quoted("[" + key.substr(0, section) + "]") +
+             "; options stand without one";
     return "the --config file has " + app::quoted(key) +
            ", but there is no such option" + didYouMean(key, namesOf(cli));
   }
@@ -172,13 +181,18 @@ void checkValues(CLI::App& cli) {
       continue;
     }
     const std::string kind = kindOf(*option);
+    const bool names_file = kind == "FILE" || kind == "DIR";
     option->check(CLI::Validator(
-        [names, kind](std::string& value) {
+        [names, kind, names_file](std::string& value) {
+          if (names_file && value.empty()) // such as a variable of the shell
+            return "wants " + kind + ", not an empty name";
           return isName(value, names)
                      ? "wants " + kind + ", but " + app::quoted(value) + " follows it"
                      : std::string();
         },
         ""));
+    if (option->get_items_expected_max() < CLI::detail::expected_max_vector_size)
+      option->allow_extra_args(false);
   }
 }
 

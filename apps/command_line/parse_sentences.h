@@ -11,8 +11,9 @@ namespace pcl_sq::app {
  * wants, what was given and what may have been meant. */
 std::string sentenceFor(const CLI::ParseError& error, const CLI::App& cli);
 
-/** \brief Lets no option take another option's name for its value ("-o --mesh") and no
- * flag take one ("--taper=3"). */
+/** \brief Lets no option take another option's name for its value ("-o --mesh"), an
+ * empty name for a file, or more values than it has, and no flag take one
+ * ("--taper=3"). */
 void checkValues(CLI::App& cli);
 
 } // namespace pcl_sq::app

@@ -102,8 +102,13 @@ CLI::Validator oneOf(std::vector<std::string> names) {
 CLI::Validator existingFile() {
   return validator("", [](std::string& path) {
     std::error_code error;
+    if (path.empty()) // such as a variable of the shell
+      return std::string("wants a file, not an empty name");
     if (std::filesystem::is_directory(path, error))
       return "wants a file, but '" + printable(path) + "' is a folder";
+    if (std::filesystem::is_character_file(path, error) && path != "/dev/null" &&
+        path != "/dev/stdin")
+      return "wants a file, but '" + printable(path) + "' is a device";
     if (!std::filesystem::exists(path, error))
       return "wants a file that exists, but there is no '" + printable(path) + "'";
     return std::string();

@@ -14,6 +14,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <vector>
 
 namespace pcl_sq::app {
@@ -58,15 +61,79 @@ cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags
   return image;
 }
 
+cv::Mat readNumbers(const std::string& path) {
+  const std::string bytes = readFile(path);
+  cv::Mat image = decodeImage(bytes, path, cv::IMREAD_UNCHANGED);
+  const auto palette = paletteOf(bytes);
+  if (palette.empty() || image.channels() < 3 || image.depth() != CV_8U)
+    return image;
+  std::map<std::array<std::uint8_t, 3>, std::uint8_t> number;
+  for (std::size_t k = 0; k < palette.size(); ++k)
+    number.emplace(palette[k], static_cast<std::uint8_t>(k));
+  cv::Mat numbers(image.size(), CV_8U, cv::Scalar(0));
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const std::uint8_t* bgr = image.ptr(y, x);
+      const auto found = number.find({bgr[2], bgr[1], bgr[0]});
+      if (found != number.end())
+        numbers.at<std::uint8_t>(y, x) = found->second;
+    }
+  return numbers;
+}
+
+namespace {
+
+/** \brief How many kinds of brightness an image has but black, at most two, and the
+ * share of its pixels that are neither dark nor bright. */
+struct Shades {
+  int kinds = 0;
+  double between = 0.0;
+};
+
+Shades shadesOf(const cv::Mat& image, double brightest) {
+  Shades shades;
+  double first = 0.0;
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const double value = image.at<float>(y, x);
+      if (value > 0.0 && (shades.kinds == 0 || (shades.kinds == 1 && value != first))) {
+        first = value;
+        ++shades.kinds;
+      }
+      shades.between += value > 0.1 * brightest && value < 0.9 * brightest ? 1.0 : 0.0;
+    }
+  shades.between /= double(image.total());
+  return shades;
+}
+
+/** \brief Whether the pixels are numbers that have colours to be told apart by. */
+bool hasColors(const std::string& bytes) {
+  const auto palette = paletteOf(bytes);
+  return std::any_of(palette.begin(), palette.end(), [](const auto& c) {
+    return c[0] != c[1] || c[1] != c[2];
+  });
+}
+
+} // namespace
+
 cv::Mat readMask(const std::string& path) {
-  const cv::Mat image = readImage(path, cv::IMREAD_GRAYSCALE);
+  // a mask's soft edges and the noise of JPEG are few pixels
+  constexpr double MOST_BETWEEN = 0.25;
+  const std::string bytes = readFile(path);
+  cv::Mat image = decodeImage(bytes, path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  image.convertTo(image, CV_32F);
   double brightest = 0.0;
   cv::minMaxLoc(image, nullptr, &brightest);
-  if (brightest > 1.0 && brightest < 128.0) // too dark for a picture: numbers of things
-    throw Failure(
-        "'" + path + "' holds values up to " + std::to_string(int(brightest)) +
-        " only, as labels do; give a mask of one object, its pixels white (or "
-        "1) and the others black.");
+  const Shades shades = shadesOf(image, brightest);
+  // too dark for a picture, or coloured by number: several things
+  if (shades.kinds > 1 && (brightest < 128.0 || hasColors(bytes)))
+    throw Failure("'" + path +
+                  "' holds labels of several things; give a mask of one object, its "
+                  "pixels white (or 1) and the others black.");
+  if (shades.between > MOST_BETWEEN)
+    throw Failure("'" + path +
+                  "' is a picture and no mask: give the object's pixels in white and "
+                  "the others in black.");
   return image > 0.5 * std::max(brightest, 1.0);
 }
 

@@ -14,9 +14,13 @@ cv::Mat readImage(const std::string& path, int flags);
 /** \brief As readImage(), of a file's bytes. \param[in] name for messages */
 cv::Mat decodeImage(const std::string& bytes, const std::string& name, int flags);
 
+/** \brief Reads an image whose pixels are numbers, such as labels: the numbers
+ * themselves where a PNG gives them colours to be looked at. \throw Failure */
+cv::Mat readNumbers(const std::string& path);
+
 /** \brief Reads a mask: 255 where a pixel is brighter than half the brightest, so that
- * 0 and 1 tell as much as black and white; 0 elsewhere. Labels of several things are
- * refused. \throw Failure */
+ * 0 and 1 tell as much as black and white; 0 elsewhere. Labels of several things and
+ * pictures are refused. \throw Failure */
 cv::Mat readMask(const std::string& path);
 
 /** \brief claimOutput() for a picture: PNG into pipes and devices, otherwise as the

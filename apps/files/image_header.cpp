@@ -211,4 +211,24 @@ bool readImageHeader(const std::string& bytes, ImageHeader& header, std::string*
   return whole;
 }
 
+std::vector<std::array<std::uint8_t, 3>> paletteOf(const std::string& bytes) {
+  constexpr std::uint64_t PALETTE = 0x504c5445; // "PLTE"
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  const Bytes png(bytes);
+  if (!png.startsWith("\x89PNG", 4) || png.big(25, 1) != 3) // kinds of colour
+    return colors;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    const std::uint64_t length = png.big(at, 4);
+    if (length > png.size())
+      break;
+    if (png.big(at + 4, 4) == PALETTE)
+      for (std::size_t i = 0; i + 2 < length; i += 3)
+        colors.push_back({std::uint8_t(png.big(at + 8 + i, 1)),
+                          std::uint8_t(png.big(at + 9 + i, 1)),
+                          std::uint8_t(png.big(at + 10 + i, 1))});
+    at += 12 + std::size_t(length);
+  }
+  return colors;
+}
+
 } // namespace pcl_sq::app

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pcl_sq::app {
 
@@ -15,5 +17,9 @@ struct ImageHeader {
 /** \brief Reads the head of a PNG, JPEG, BMP, PNM, PFM or TIFF file. \param[out] why
  * what is wrong with it \return false if it is none of them or cut off */
 bool readImageHeader(const std::string& bytes, ImageHeader& header, std::string* why);
+
+/** \brief The colours (red, green, blue) that the numbers in a PNG's pixels stand for;
+ * none where its pixels are no numbers of colours. */
+std::vector<std::array<std::uint8_t, 3>> paletteOf(const std::string& bytes);
 
 } // namespace pcl_sq::app

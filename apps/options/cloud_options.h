@@ -10,7 +10,9 @@ namespace pcl_sq::app {
 
 /** \brief What every program that reads clouds or meshes asks the user. */
 struct CloudOptions {
-  std::string unit = "m";     ///< of the numbers in the file: mm, cm, m or in
+  std::string unit = "m"; ///< of the numbers in the file: mm, cm, m or in
+  /// what tells another unit of the input
+  std::string unit_option = "--unit mm, cm, m or in";
   std::size_t samples = 5000; ///< points on the surface of a mesh, 100 to 10,000,000
 
   /** \brief Length of the unit [m]. */

@@ -5,6 +5,8 @@
 #include "command_line/app.h"
 #include "command_line/value_checks.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace pcl_sq::app {
@@ -60,6 +62,21 @@ std::optional<Eigen::Vector3d> FrameOptions::upOf() const {
   if (!direction.allFinite() || !(direction.norm() > 1e-9))
     throw UsageError("--up wants finite numbers that are not all zero.");
   return direction;
+}
+
+void checkFrame(const FrameOptions& options) {
+  constexpr double MOST = 30.0; // [degrees] what a hand-written direction may be off
+  const auto table = options.tableOf();
+  const auto up = options.upOf();
+  if (!table || !up)
+    return;
+  const double off =
+      std::acos(std::clamp(table->normal.dot(up->normalized()), -1.0, 1.0)) * 180.0 /
+      M_PI;
+  if (off > MOST)
+    throw UsageError("--table and --up contradict each other: the table's normal is " +
+                     std::to_string(std::lround(off)) +
+                     " degrees from up; give one of them.");
 }
 
 void addFrameOptions(CLI::App& cli, FrameOptions& options) {

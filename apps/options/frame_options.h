@@ -25,6 +25,10 @@ struct FrameOptions {
   ///@}
 };
 
+/** \brief Refuses --table and --up where they contradict each other.
+ * \throw UsageError */
+void checkFrame(const FrameOptions& options);
+
 /** \brief Adds --viewpoint, --table and --up to a program. */
 void addFrameOptions(CLI::App& cli, FrameOptions& options);
 

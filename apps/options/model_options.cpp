@@ -124,10 +124,10 @@ void addModelOptions(CLI::App& cli, ModelOptions& options) {
       ->type_name("X,Y,W,H")
       ->check(wholeNumber(-MAX_PIXELS, MAX_PIXELS));
   cli.add_option(
-         "--box", options.box, "Object's box: minx,miny,minz,maxx,maxy,maxz [m]")
+         "--box", options.box, "Object's box, its lowest corner and its highest [m]")
       ->expected(6)
       ->delimiter(',')
-      ->type_name("BOX")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1")
       ->check(number(-FARTHEST, FARTHEST));
   cli.add_flag(
       "--remove-plane",
@@ -168,6 +168,7 @@ void checkModelOptions(const ModelOptions& options) {
     if (!(options.box[k] < options.box[k + 3]))
       throw UsageError("--box wants each minimum below its maximum: "
                        "minx,miny,minz,maxx,maxy,maxz.");
+  checkFrame(options.frame);
   checkTaper(options);
   claimOutput("--output", options.output);
   claimOutput("--mesh", options.mesh, {".ply", ".obj", ".stl", ".vtp"});

@@ -44,10 +44,10 @@ void addCoverageOptions(CLI::App& cli, ModelOptions& options) {
 }
 
 void addViewOptions(CLI::App& cli, ModelOptions& options) {
-  auto preset = std::make_shared<std::string>();
-  cli.add_option(
+  // the command line itself is asked which one, see asksForPaper()
+  cli.add_option_function<std::string>(
          "--preset",
-         *preset,
+         [](const std::string&) {},
          "best: points, outline and table, parts found; paper: the paper's chain "
          "(also chosen by its own options)")
       ->default_str("best")

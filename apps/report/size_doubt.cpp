@@ -17,11 +17,11 @@ sizeDoubt(const std::string& what, double size, const CloudOptions& options) {
   std::snprintf(
       text,
       sizeof(text),
-      "%s would be %.3g m large if the file's unit is %s; give --unit mm, cm, "
-      "m or in if it is another one",
+      "%s would be %.3g m large if the file's unit is %s; give %s if it is another one",
       what.c_str(),
       size,
-      options.unit.c_str());
+      options.unit.c_str(),
+      options.unit_option.c_str());
   return text;
 }
 

@@ -88,6 +88,12 @@ void addFrontOptions(CLI::App& cli, FrontOptions& o) {
                "Texture-based filter of the object's rim (section IV)");
 }
 
+std::string unitOptionOf(const FrontOptions& o) {
+  return !o.depth.empty()  ? "--depth-scale"
+         : o.calib.empty() ? "--baseline"
+                           : "--calib-unit";
+}
+
 void checkPairOptions(const FrontOptions& o) {
   std::string why;
   if (!o.stereo.isValid(&why))

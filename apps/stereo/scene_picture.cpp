@@ -148,7 +148,7 @@ cv::Mat labelImage(const SceneResult& result) {
 }
 
 LabelImage readLabels(const std::string& path) {
-  const cv::Mat image = readImage(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat image = readNumbers(path);
   const bool wide = image.depth() == CV_16U;
   if (image.channels() != 1 || (!wide && image.depth() != CV_8U))
     throw Failure("'" + path +

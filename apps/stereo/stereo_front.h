@@ -43,6 +43,9 @@ void checkFrontOptions(const FrontOptions& options, const std::vector<int>& roi)
 /** \brief The same for addPairOptions(). \throw UsageError */
 void checkPairOptions(const FrontOptions& options);
 
+/** \brief The option that tells another unit of what the images give. */
+std::string unitOptionOf(const FrontOptions& options);
+
 /** \brief The pipeline that the options ask for. \param[in] roi box in the image: x, y,
  * w, h, or empty \param[in] size of the images [px] \throw Failure */
 StereoPipeline makePipeline(const FrontOptions& options,

@@ -157,7 +157,7 @@ GraspSearch::explain(const GraspPlan& plan, double narrowest, double widest) con
          << r.obstacle << " with other objects, " << r.cloud
          << " with measured points); nearest miss: a grasp of width "
          << millimetres(miss_.grasp.width) << " on part "
-         << miss_.grasp.contacts.front().part << " blocked by "
+         << miss_.grasp.contacts.front().part + 1 << " blocked by "
          << nameOf(miss_.obstruction) << "; use a slimmer gripper or clear the scene.";
   } else if (r.unseen > 0) {
     text << "the contacts of all " << r.unseen

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -67,6 +68,15 @@ std::string bytesOf(const std::string& path, int descriptor) {
   }
 }
 
+/** \brief Refuses devices such as /dev/zero, which would be read until memory ends. */
+void refuseEndless(const std::string& path, int descriptor) {
+  struct stat file = {}, nothing = {};
+  if (fstat(descriptor, &file) == 0 && S_ISCHR(file.st_mode) &&
+      isatty(descriptor) == 0 &&
+      !(stat("/dev/null", &nothing) == 0 && nothing.st_rdev == file.st_rdev))
+    throw FileFailure{"'" + path + "' is a device, not a file; give a file"};
+}
+
 std::string readNamed(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0)
@@ -74,6 +84,7 @@ std::string readNamed(const std::string& path) {
                       (errno == ENOENT ? "the file does not exist"
                                        : std::generic_category().message(errno))};
   try {
+    refuseEndless(path, descriptor);
     std::string bytes = bytesOf(path, descriptor);
     close(descriptor);
     return bytes;

@@ -239,3 +239,23 @@ TEST(FitApp, CloudsWithoutAnObjectAreRefusedInOneSentence) {
   const std::string cloud = folder.write("far.pcd", pcdOf(far));
   expectRefusal(folder, {cloud});
 }
+
+TEST(FitApp, DevicesWithoutAnEndAreNoFiles) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"/dev/zero"},
+        {"absent.pcd", "--config", "/dev/zero"}}) {
+    const ProgramRun run = runProgram("pcl_sq_fit", arguments, "ulimit -v 2000000;");
+    EXPECT_NE(run.code, 0);
+    EXPECT_NE(run.err.find("is a device"), std::string::npos) << run.err;
+  }
+}
+
+TEST(FitApp, APresetIsReadAsItIsTyped) {
+  const Folder folder;
+  for (const char* preset : {"best", "paper"}) {
+    const ProgramRun run =
+        runProgram("pcl_sq_fit", {folder / "absent.pcd", "--preset", preset});
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_NE(run.err.find("absent.pcd"), std::string::npos) << run.err;
+  }
+}

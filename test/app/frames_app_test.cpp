@@ -140,3 +140,16 @@ TEST(FramesApp, NonsenseIsRefusedByEveryProgram) {
       EXPECT_NE(run.err.find(wrong[0]), std::string::npos) << run.err;
     }
 }
+
+TEST(FramesApp, ATableAndAnUpThatContradictAreRefused) {
+  for (const char* up : {"-z", "x", "0,1,0"}) {
+    const ProgramRun run =
+        runProgram("pcl_sq_fit",
+                   {"absent.pcd", "--remove-plane", "--table", "0,0,1,0", "--up", up});
+    EXPECT_EQ(run.code, 2) << up;
+    EXPECT_NE(run.err.find("contradict"), std::string::npos) << run.err;
+  }
+  const ProgramRun agree =
+      runProgram("pcl_sq_fit", {"absent.pcd", "--table", "0,0,1,0", "--up", "0,.2,1"});
+  EXPECT_EQ(agree.err.find("contradict"), std::string::npos) << agree.err;
+}

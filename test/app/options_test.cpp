@@ -150,6 +150,26 @@ TEST_P(Program, ChoicesThatAreNoneAreToldTheNames) {
   }
 }
 
+TEST_P(Program, OptionsMayStandBeforeTheFiles) {
+  for (const Option& option : optionsOf(GetParam())) {
+    std::vector<std::string> more = {option.name};
+    if (!option.type.empty())
+      more.push_back(valueFor(option.name, option.type));
+    const ProgramRun behind = runWith(GetParam(), more);
+    const std::vector<std::string> files = enough(GetParam());
+    more.insert(more.end(), files.begin(), files.end());
+    const ProgramRun before = runProgram(GetParam(), more);
+    EXPECT_EQ(before.code, behind.code) << option.name;
+    EXPECT_EQ(before.err, behind.err) << option.name;
+  }
+}
+
+TEST_P(Program, AnEmptyNameIsNoFile) {
+  for (const Option& option : optionsOf(GetParam()))
+    if (option.type == "FILE" || option.type == "DIR")
+      expectSentence(runWith(GetParam(), {option.name, ""}), "empty name", option.name);
+}
+
 TEST_P(Program, OptionsWithoutEffectAreRefused) {
   // every rule that forbids something in a plain command line
   std::set<std::string> refused;
@@ -172,7 +192,8 @@ TEST_P(Program, OptionsWithoutEffectAreRefused) {
                                      "--friction",
                                      "--clearance",
                                      "--min-observed",
-                                     "--grasp-threshold"}));
+                                     "--grasp-threshold",
+                                     "--samples"}));
   } else if (program == "pcl_sq_evaluate") {
     EXPECT_EQ(refused, (std::set<std::string>{"--pose", "--symmetry", "--samples"}));
   }
@@ -234,6 +255,8 @@ TEST(OptionRules, RefuseWhatTheOtherOptionsMakeNeedless) {
   refuses(fit, "--roi", {c, "--mask", mask, "--roi", "1,2,3,4"});
   refuses("pcl_sq_grasp", "--roi", {"absent.json", "--roi", "1,2,3,4"});
   refuses("pcl_sq_grasp", "--cloud", {c, "--cloud", "other.pcd"});
+  refuses("pcl_sq_grasp", "--unit", {"absent.json", "--unit", "mm"});
+  refuses(fit, "--samples", {c, "--samples", "200"});
 #ifdef PCL_SQ_TEST_STEREO
   refuses("pcl_sq_stereo", "--matcher", {"--depth", "d.png", "--matcher", "sgbm"});
   refuses("pcl_sq_stereo",
@@ -251,6 +274,8 @@ TEST(OptionRules, AConfigFileIsReadAlike) {
   };
   expectSentence(
       with("decompositon = \"none\"\n"), "'--decomposition'", "typing error");
+  expectSentence(with("[fit]\nparts = 1\n"), "'[fit]'", "a section");
+  expectSentence(with("help = true\n"), "command line", "what ends a program");
   expectSentence(with("parts = 1.5\n"), "--parts wants a whole number", "not whole");
   expectSentence(with("friction = 0.5\n"), "--friction has no effect", "no grasps");
   EXPECT_EQ(with("exclusive = false\nparts = 2\n").code, 1)
