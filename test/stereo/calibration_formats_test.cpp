@@ -195,6 +195,36 @@ TEST(CalibrationFormats, FisheyesAreRectifiedToWhatCvFisheyeProjects) {
   }
 }
 
+TEST(CalibrationFormats, AFisheyeIsNoPinholeWhateverTheNameThatSaysSo) {
+  const Rig rig;
+  const std::string good = rig.lists("K1", "K2", "D1", "D2", "R", "T");
+  const auto fx = [](const std::string& text) { return load(text).getIntrinsics().fx; };
+  const double fisheye = fx("distortion_model: equidistant\n" + good);
+  const double pinhole = fx(good);
+  ASSERT_GT(std::abs(fisheye - pinhole), 1.0);
+  for (const char* line : {"fisheye: true",
+                           "fisheye: yes",
+                           "is_fisheye: on",
+                           "fisheye: 1",
+                           "fisheye_model: 1",
+                           "projection: equidistant",
+                           "lens_type: fisheye",
+                           "type: fisheye",
+                           "lens: equidistant",
+                           "calibration: {lens: Kannala-Brandt}",
+                           "distortion_left: equidistant",
+                           "model: fisheye"})
+    EXPECT_DOUBLE_EQ(fx(std::string(line) + "\n" + good), fisheye) << line;
+  for (const char* line : {"fisheye: false",
+                           "fisheye: no",
+                           "fisheye: 0",
+                           "camera_name: fisheye",
+                           "left_image: /data/fisheye/left.png",
+                           "model: OAK-D"})
+    EXPECT_DOUBLE_EQ(fx(std::string(line) + "\n" + good), pinhole) << line;
+  expectFormatRefusal("lens: Fisheye624\n" + good, "'Fisheye624' is not known");
+}
+
 TEST(CalibrationFormats, WhatIsNotUnderstoodIsRefusedByItsName) {
   const Rig rig;
   const std::string good = rig.lists("K1", "K2", "D1", "D2", "R", "T");

@@ -122,6 +122,8 @@ void readNamed(const CalibrationDocuments& documents,
   for (const auto& [key, value] : named.values)
     if (key.first == M::LENS_MODEL)
       setLens(value.text, contents);
+  for (const std::string& lens : named.lenses)
+    setLens(lens, contents);
   if (const double flag = named.number({"fisheye", "isfisheye"}); flag > 0.0)
     c.fisheye = true;
   if (const double xi = named.number({"xi", "xi1", "xi2"}); std::abs(xi) > 0.0)
