@@ -100,7 +100,7 @@ TEST(CalibrationFormats, ZedsSectionIsChosenByTheImagesSize) {
     (void)StereoCalibration::fromText(texts, 0.001, vga.width, vga.height);
     ADD_FAILURE() << "a unit for a file that has its own";
   } catch (const Exception& e) {
-    EXPECT_NE(std::string(e.what()).find("a unit of length of its own"),
+    EXPECT_NE(std::string(e.what()).find("a unit of length of their own"),
               std::string::npos);
   }
 }
@@ -223,6 +223,18 @@ TEST(CalibrationFormats, AFisheyeIsNoPinholeWhateverTheNameThatSaysSo) {
                            "model: OAK-D"})
     EXPECT_DOUBLE_EQ(fx(std::string(line) + "\n" + good), pinhole) << line;
   expectFormatRefusal("lens: Fisheye624\n" + good, "'Fisheye624' is not known");
+}
+
+TEST(CalibrationFormats, TheUnitOfLengthCountsForKalibrAndEurocToo) {
+  Rig rig;
+  rig.T *= 1000.0; // of a board whose squares were given in millimetres
+  for (const char* name : {"Kalibr", "EuRoC"}) {
+    SCOPED_TRACE(name);
+    const Texts texts = rig.formats().at(name);
+    EXPECT_NE(refusalOfTexts(texts).find("--calib-unit"), std::string::npos);
+    const StereoCalibration c = StereoCalibration::fromText(texts, 0.001);
+    EXPECT_NEAR(c.getIntrinsics().baseline, 1e-3 * cv::norm(rig.T), 1e-9);
+  }
 }
 
 TEST(CalibrationFormats, WhatIsNotUnderstoodIsRefusedByItsName) {
