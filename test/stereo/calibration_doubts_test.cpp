@@ -2,6 +2,7 @@
 // Calibrations that would be misread in silence.
 #include "calibration_texts.h"
 #include "rig_formats.h"
+#include "text.h"
 
 #include <cmath>
 
@@ -85,4 +86,27 @@ TEST(CalibrationDoubts, ABaselineThatIsToldTwiceIsTheSameOrRefused) {
   EXPECT_NE(refusalOfTexts({{"file", q(60.0) + number(90.0)}}, 0.001)
                 .find("Q says that the baseline is 0.06 m, but baseline says 0.09 m"),
             std::string::npos);
+}
+
+TEST(CalibrationDoubts, CommentsOfIniFilesAreNoValues) {
+  const Rig rig;
+  const std::string zed = rig.formats().at("ZED")[0].text;
+  std::string text = "; made by hand\n// twice\n# thrice\n" + zed;
+  text = replaced(text, "[LEFT_CAM_VGA]", "[LEFT_CAM_VGA] ; the small one");
+  text = replaced(text, "\nTY=", "\n; TY of the right camera\nTY=");
+  text = replaced(text, "\nTZ=", " ; in millimetres\nTZ=");
+  const auto read = [](const std::string& file) {
+    return StereoCalibration::fromText({{"SN1.conf", file}}, 1.0, 672, 376);
+  };
+  const StereoIntrinsics with = read(text).getIntrinsics();
+  const StereoIntrinsics without = read(zed).getIntrinsics();
+  EXPECT_DOUBLE_EQ(with.baseline, without.baseline);
+  EXPECT_DOUBLE_EQ(with.fx, without.fx);
+  EXPECT_DOUBLE_EQ(with.cy, without.cy);
+  EXPECT_NEAR(loadText("; f in pixels\nf=500 # of both\ncx=199.5\ncy=149.5\n"
+                       "baseline=0.06\n")
+                  .getIntrinsics()
+                  .fx,
+              500.0,
+              1e-12);
 }
