@@ -25,7 +25,7 @@ takeNumbers(std::string_view line, std::size_t number, double* out, std::size_t 
     if (word.empty() || word[0] == '#')
       return k;
     if (!parseNumber(word, out[k]))
-      failInLine(number, app::quoted(word) + " is no number");
+      failInLine(number, whyNoNumber(word));
   }
   return most;
 }

@@ -68,7 +68,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k)
         if (axes_[k]->position == position &&
             !parseNumber(word, point[Eigen::Index(k)]))
-          failInLine(lines_.number(), app::quoted(word) + " is no number");
+          failInLine(lines_.number(), whyNoNumber(word));
       if (color_ && color_->position == position && !parseNumber(word, color))
         failInLine(lines_.number(), app::quoted(word) + " is no colour");
       word = takeWord(line);

@@ -14,8 +14,6 @@ namespace pcl_sq::app {
 
 namespace {
 
-const char* const DECIMAL_COMMAS = "decimal commas; write points (1.5 instead of 1,5)";
-
 class TextReader {
 public:
   explicit TextReader(std::string_view bytes) : lines_(bytes) {}
@@ -68,7 +66,7 @@ private:
                                               std::to_string(columns_->names));
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!cells_[k].empty() && !parseNumber(cells_[k], value))
-        failInLine(lines_.number(), app::quoted(cells_[k]) + " is no number");
+        failInLine(lines_.number(), whyNoNumber(cells_[k]));
       point[static_cast<Eigen::Index>(axis)] = value;
     }
     shape_.points.push_back(point);

@@ -109,6 +109,21 @@ TEST(TextReader, RefusesDecimalCommasByName) {
   EXPECT_TRUE(tells(refusal("1 2 3\n1 2 3\n1,0 2,0 3,0\n", ""), {"line 3"}));
 }
 
+TEST(TextReader, DecimalCommasAreNamedInEveryFormatOfText) {
+  const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                          "property float y\nproperty float z\nend_header\n";
+  for (const auto& [head, extension] :
+       {std::pair<std::string, std::string>{pcd, ".pcd"},
+        {ply, ".ply"},
+        {"v ", ".obj"}}) {
+    EXPECT_TRUE(tells(refusal(head + "-0,5 1,25e-3 0,7\n", extension),
+                      {"line ", "decimal commas; write points"}));
+    EXPECT_TRUE(
+        tells(refusal(head + "1,2,3 4 5\n", extension), {"'1,2,3' is no number"}));
+  }
+}
+
 TEST(TextReader, NamesTheLineThatIsWrong) {
   EXPECT_TRUE(tells(refusal("1 2 3\n1 2 3abc\n", ".xyz"), {"line 2", "'3abc'"}));
   EXPECT_TRUE(tells(refusal("1 2 3\n\n4 5\n", ".xyz"), {"line 3", "three numbers"}));
