@@ -50,8 +50,17 @@ Eigen::Vector3d findOffset(const std::vector<Eigen::Vector3d>& points) {
   return middle;
 }
 
-/** \brief Scales to metres. */
-void toMetres(Shape& shape, const CloudOptions& options) {
+/** \brief Scales to metres: a unit that the file names is the one it has. */
+void toMetres(Shape& shape, CloudOptions options, LoadedCloud& loaded) {
+  if (!shape.unit.empty() && shape.unit != options.unit) {
+    // metres are what programs take for granted, so they contradict nothing
+    if (options.unit != CloudOptions().unit)
+      throw Failure("its header says that the unit is " + shape.unit + ", but --unit " +
+                    options.unit +
+                    " is given; leave --unit out, or correct the header");
+    options.unit = shape.unit;
+    loaded.notes.push_back("the unit is " + shape.unit + ", as the file's header says");
+  }
   const double scale = options.scale();
   if (scale != 1.0)
     for (Eigen::Vector3d& p : shape.points)
@@ -101,7 +110,8 @@ LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
   loaded.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZRGBA>>();
   if (shape.points.empty())
     throw Failure("it holds no points");
-  toMetres(shape, options);
+  loaded.notes = shape.notes;
+  toMetres(shape, options, loaded);
   if (!shape.triangles.empty())
     sampleFaces(shape, options, loaded);
   else

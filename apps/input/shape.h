@@ -20,6 +20,8 @@ struct Shape {
   std::uint32_t width = 0, height = 0;   ///< of an image of points; 0 for a list
   Eigen::Vector3d origin{0.0, 0.0, 0.0}; ///< of the sensor
   Eigen::Quaterniond orientation{1.0, 0.0, 0.0, 0.0}; ///< of the sensor
+  std::string unit; ///< that the file names: m, cm, mm or in; empty if it names none
+  std::vector<std::string> notes; ///< what was assumed, without full stops
 };
 
 /** \brief Reads PCD, PLY, OBJ, STL or lines of numbers. What the bytes start with

@@ -43,13 +43,45 @@ private:
   void readComment(std::string_view line) {
     if (!shape_.points.empty())
       return;
-    if (const auto columns = readColumnNames(line); columns && !has_header_)
+    takeUnit(unitOfComment(line));
+    if (const auto columns = readColumnNames(line); columns && !has_header_) {
       columns_ = columns;
+      takeUnits();
+    }
+  }
+
+  void takeUnits() {
+    for (const std::string& unit : columns_->units)
+      takeUnit(unit);
+  }
+
+  void takeUnit(const std::string& unit) {
+    if (unit.empty())
+      return;
+    if (unit[0] == '?')
+      failInLine(lines_.number(),
+                 "the unit " + unit.substr(1) +
+                     " of its header is none of mm, cm, m and in; convert the numbers");
+    if (!shape_.unit.empty() && shape_.unit != unit)
+      failInLine(lines_.number(),
+                 "its header names two units, " + shape_.unit + " and " + unit +
+                     "; correct it");
+    shape_.unit = unit;
+  }
+
+  /** \brief A line of units below the line of names. */
+  bool readUnits() {
+    if (!has_header_ || cells_.size() != columns_->names ||
+        unitNamed(cells_[columns_->axes[0]]).empty())
+      return false;
+    for (const std::size_t k : columns_->axes)
+      takeUnit(unitNamed(cells_[k]));
+    return true;
   }
 
   void readCells(std::string_view line) {
     splitCells(line, cells_);
-    if (shape_.points.empty() && (readCount() || readNames(line)))
+    if (shape_.points.empty() && (readCount() || readUnits() || readNames(line)))
       return;
     if (shape_.points.empty())
       start(line);
@@ -107,6 +139,7 @@ private:
           app::quoted(line) +
               " is neither three numbers nor does it name the columns x, y and z");
     has_header_ = true;
+    takeUnits();
     return true;
   }
 

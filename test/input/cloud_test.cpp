@@ -59,6 +59,24 @@ TEST(Cloud, UnitsBecomeMetres) {
   }
 }
 
+TEST(Cloud, TheFilesOwnUnitIsUsedAndNotContradicted) {
+  app::Shape shape = box({0, 0, 650}, 60.0);
+  shape.unit = "mm";
+  app::CloudOptions options;
+  const app::LoadedCloud loaded = app::makeCloud(shape, options);
+  EXPECT_NEAR((*loaded.cloud)[0].z, 1e-3 * shape.points[0].z(), 1e-6);
+  EXPECT_TRUE(tells(allNotes(loaded), {"the unit is mm, as the file's header says"}));
+  options.unit = "mm";
+  EXPECT_TRUE(app::makeCloud(shape, options).notes.empty());
+  options.unit = "in";
+  try {
+    (void)app::makeCloud(shape, options);
+    ADD_FAILURE() << "two units";
+  } catch (const app::Failure& failure) {
+    EXPECT_TRUE(tells(failure.what(), {"unit is mm", "--unit in", "leave --unit out"}));
+  }
+}
+
 TEST(Cloud, ZerosAreMissingInListsAndImages) {
   for (const bool image : {false, true}) {
     app::Shape shape = box(SENSOR_FRAME, 0.2);

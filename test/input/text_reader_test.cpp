@@ -124,6 +124,39 @@ TEST(TextReader, DecimalCommasAreNamedInEveryFormatOfText) {
   }
 }
 
+TEST(TextReader, TheUnitThatAHeaderNamesIsTheFiles) {
+  const auto unitOf = [](const std::string& head) {
+    const app::Shape shape = app::readShape(head + "1.5 2.5 3.5\n4 5 6\n", ".csv");
+    EXPECT_EQ(shape.points.size(), 2u) << head;
+    EXPECT_EQ(shape.points[0], Eigen::Vector3d(1.5, 2.5, 3.5)) << head;
+    return shape.unit;
+  };
+  for (const char* head : {"x [mm],y [mm],z [mm]\n",
+                           "X(mm);Y(mm);Z(mm)\n",
+                           "x_mm,y_mm,z_mm\n",
+                           "pos_x_mm pos_y_mm pos_z_mm\n",
+                           "# X [mm] Y [mm] Z [mm]\n",
+                           "// X [millimeters]\tY [millimeters]\tZ [millimeters]\n",
+                           "x in mm;y in mm;z in mm\n",
+                           "x/mm;y/mm;z/mm\n",
+                           "x,y,z\nmm,mm,mm\n",
+                           "# Units: mm\n",
+                           "# x y z [mm]\n"})
+    EXPECT_EQ(unitOf(head), "mm") << head;
+  EXPECT_EQ(unitOf("X [cm],Y [cm],Z [cm]\n"), "cm");
+  EXPECT_EQ(unitOf("X (in);Y (in);Z (in)\n"), "in");
+  EXPECT_EQ(unitOf("x_m y_m z_m\n"), "m");
+  for (const char* head :
+       {"x,y,z\n", "# a can of 66 mm\n", "x (map),y (map),z (map)\n", ""})
+    EXPECT_EQ(unitOf(head), "") << head;
+  EXPECT_TRUE(tells(refusal("x [ft],y [ft],z [ft]\n1 2 3\n", ".csv"),
+                    {"line 1", "the unit ft", "convert"}));
+  EXPECT_TRUE(
+      tells(refusal("x_mm,y_mm,z_m\n1 2 3\n", ".csv"), {"two units, mm and m"}));
+  EXPECT_TRUE(tells(refusal("# unit: m\nx_mm,y_mm,z_mm\n1 2 3\n", ".csv"),
+                    {"line 2", "two units, m and mm"}));
+}
+
 TEST(TextReader, NamesTheLineThatIsWrong) {
   EXPECT_TRUE(tells(refusal("1 2 3\n1 2 3abc\n", ".xyz"), {"line 2", "'3abc'"}));
   EXPECT_TRUE(tells(refusal("1 2 3\n\n4 5\n", ".xyz"), {"line 3", "three numbers"}));
