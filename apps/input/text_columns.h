@@ -21,6 +21,14 @@ struct TextColumns {
   double color_scale = 1.0;                         ///< to 0..255
   std::size_t names = 0;          ///< cells that the header names; 0 without one
   std::vector<std::string> units; ///< of axes that name theirs, as unitNamed() has it
+
+  /** \brief The same columns behind others. */
+  void moveBy(std::size_t columns) {
+    for (std::size_t& axis : axes)
+      axis += columns;
+    for (std::size_t k = 0; k < 3 && colors; ++k)
+      (*colors)[k] += columns;
+  }
 };
 
 /** \brief Reads a header's line, comment marks in front allowed.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_bytes.h"
 #include "input/lines.h"
+#include "text.h"
 
 #include <gtest/gtest.h>
 
@@ -155,6 +156,34 @@ TEST(TextReader, TheUnitThatAHeaderNamesIsTheFiles) {
       tells(refusal("x_mm,y_mm,z_m\n1 2 3\n", ".csv"), {"two units, mm and m"}));
   EXPECT_TRUE(tells(refusal("# unit: m\nx_mm,y_mm,z_mm\n1 2 3\n", ".csv"),
                     {"line 2", "two units, m and mm"}));
+}
+
+TEST(TextReader, AColumnThatCountsTheLinesIsNoCoordinate) {
+  const auto numbered = [](int first, const char* separator, const std::string& more) {
+    std::string text;
+    for (int i = 0; i < 20; ++i)
+      text += std::to_string(i + first) + separator + std::to_string(0.5 * i) +
+              separator + "2" + separator + "3" + more + "\n";
+    return text;
+  };
+  for (const int first : {0, 1})
+    for (const char* separator : {" ", ","}) {
+      const app::Shape shape = app::readShape(numbered(first, separator, ""), ".txt");
+      ASSERT_EQ(shape.points.size(), 20u);
+      EXPECT_EQ(shape.points[4], Eigen::Vector3d(2, 2, 3));
+      ASSERT_EQ(shape.notes.size(), 1u);
+      EXPECT_TRUE(tells(shape.notes[0], {"first column counts the lines"}));
+    }
+  EXPECT_EQ(app::readShape(numbered(0, " ", " 255 0 1"), ".txt").colors.at(3),
+            0xff0001u);
+  // R names all columns but that one
+  const app::Shape named = app::readShape("y z x\n" + numbered(1, " ", ""), ".txt");
+  EXPECT_EQ(named.points[4], Eigen::Vector3d(3, 2, 2));
+  // three columns, or other steps: x, y, z as ever
+  const std::string other = replaced(numbered(0, " ", ""), "\n7 ", "\n7.5 ");
+  for (const std::string& text : {other, numbered(2, " ", "")})
+    EXPECT_TRUE(app::readShape(text, ".txt").notes.empty());
+  EXPECT_EQ(app::readShape(other, ".txt").points[4], Eigen::Vector3d(4, 2, 2));
 }
 
 TEST(TextReader, NamesTheLineThatIsWrong) {
