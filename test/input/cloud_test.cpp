@@ -117,6 +117,40 @@ TEST(Cloud, FarValuesThatManyPointsShareAreMissing) {
   EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 400u);
 }
 
+TEST(Cloud, ManyPointsAtOnePlaceAreMissingHoweverNear) {
+  for (const Eigen::Vector3d& marker :
+       {Eigen::Vector3d(0, 0, -1), {-1, -1, -1}, {0, 0, 4}, {0.1, 0, 0.7}})
+    for (const std::size_t step : {1u, 5u}) {
+      app::Shape shape = box(SENSOR_FRAME, 0.2); // most are missing, or few
+      for (std::size_t i = 0; i < 450; i += step)
+        shape.points[i] = marker;
+      const app::LoadedCloud loaded = app::makeCloud(shape, {});
+      EXPECT_EQ(loaded.finite_points, step == 1 ? 50u : 410u) << marker.transpose();
+      EXPECT_TRUE(tells(allNotes(loaded), {" points ", " taken as missing"}));
+    }
+  app::Shape shape = box(SENSOR_FRAME, 0.2); // two markers, one of them of rays
+  for (std::size_t i = 0; i < 50; ++i) {
+    shape.points[i] = {-1, -1, -1};
+    shape.points[100 + i] = {0.01 * double(i), 0, 8};
+  }
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 400u);
+}
+
+TEST(Cloud, PointsThatMeetAsOthersDoAreNotMissing) {
+  app::Shape shape = box(SENSOR_FRAME, 0.2);
+  for (std::size_t i = 1; i < 6; ++i) // a few doubles
+    shape.points[i] = shape.points[0];
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 500u);
+  shape = box(SENSOR_FRAME, 0.2);
+  for (int i = 0; i < 5; ++i) // joined with itself, again and again
+    shape.points.insert(shape.points.end(), shape.points.begin(), shape.points.end());
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 32u * 500u);
+  shape = box(SENSOR_FRAME, 0.2, 20000);
+  for (Eigen::Vector3d& p : shape.points) // in steps of five centimetres
+    p = (20.0 * p).array().round() / 20.0;
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 20000u);
+}
+
 TEST(Cloud, WallsAndStraysAreNotMissing) {
   app::Shape shape = box(SENSOR_FRAME, 0.2); // a wall of exact numbers behind
   for (std::size_t i = 0; i < 100; ++i)
