@@ -4,6 +4,7 @@
 #include "command_line/app.h"
 #include "report/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -91,6 +92,11 @@ std::string lowered(std::string_view word) {
     if (c >= 'A' && c <= 'Z')
       c = static_cast<char>(c - 'A' + 'a');
   return small;
+}
+
+bool isPadding(std::string_view bytes) {
+  return std::all_of(
+      bytes.begin(), bytes.end(), [](char c) { return isBlank(c) || c == '\0'; });
 }
 
 const char* const DECIMAL_COMMAS = "decimal commas; write points (1.5 instead of 1,5)";

@@ -48,6 +48,10 @@ public:
       throw Failure("it has no vertices");
     if (body_.ascii() && !body_.nextWord().empty())
       throw Failure(body_.place() + ": there are more numbers than the header names");
+    if (!body_.ascii() && !isPadding(body_.rest()))
+      throw Failure("there are " + std::to_string(body_.rest().size()) +
+                    " bytes more than its header names; correct the numbers of its "
+                    "elements, or write it again");
     // faces may stand in front of the vertices
     for (std::size_t i = 0; i < faces_.size(); ++i)
       if (!addFace(faces_[i], shape_))
