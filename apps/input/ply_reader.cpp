@@ -29,6 +29,13 @@ public:
         readVertices(element);
       else if (element.name == "face")
         readFaces(element);
+      else if (element.name == "tristrips")
+        walk(
+            element,
+            [](std::size_t, double) {},
+            [&](std::size_t, const std::vector<double>& list) {
+              cutStrips(list, faces_);
+            });
       else if (element.name == "range_grid")
         walk(
             element,

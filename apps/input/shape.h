@@ -45,4 +45,8 @@ bool isBinaryStl(std::string_view bytes);
  * \return false if a corner is none of the points */
 bool addFace(const std::vector<std::int64_t>& corners, Shape& shape);
 
+/** \brief Cuts strips of triangles, negative numbers between them, into \a faces. */
+void cutStrips(const std::vector<double>& strips,
+               std::vector<std::vector<std::int64_t>>& faces);
+
 } // namespace pcl_sq::app
