@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace pcl_sq::app {
@@ -48,6 +49,37 @@ Eigen::Vector3d findOffset(const std::vector<Eigen::Vector3d>& points) {
   for (double& m : middle)
     m = std::abs(m) > BITS_LOST * half_size ? std::round(m) : 0.0;
   return middle;
+}
+
+/** \brief Whether a writer rounded the coordinates of a far cloud to floats: then its
+ * points stand on steps that are no smaller than a hundredth of the thing.
+ * \return a sentence, or nothing */
+std::string coarseFloats(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double COARSE = 0.01;
+  Eigen::Vector3d middle;
+  double half_size;
+  findMiddle(points, middle, half_size);
+  const double far = middle.cwiseAbs().maxCoeff();
+  if (!(far > 0.0) || !std::isfinite(far))
+    return {};
+  const double step = std::ldexp(1.0, std::ilogb(far) - 23); // a float has 24 bits
+  if (!(step >= COARSE * half_size))
+    return {};
+  const auto isFloat = [](double value) {
+    return !std::isfinite(value) ||
+           static_cast<double>(static_cast<float>(value)) == value;
+  };
+  for (const Eigen::Vector3d& p : points)
+    if (!std::all_of(p.begin(), p.end(), isFloat))
+      return {};
+  char text[200];
+  std::snprintf(text,
+                sizeof(text),
+                "its coordinates of about %.7g are in single precision, which resolves "
+                "them to %.2g only; export them as doubles, or shifted to zero",
+                far,
+                step);
+  return text;
 }
 
 /** \brief Scales to metres: a unit that the file names is the one it has. */
@@ -111,6 +143,8 @@ LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
   if (shape.points.empty())
     throw Failure("it holds no points");
   loaded.notes = shape.notes;
+  if (std::string coarse = coarseFloats(shape.points); !coarse.empty())
+    loaded.notes.push_back(std::move(coarse));
   toMetres(shape, options, loaded);
   if (!shape.triangles.empty())
     sampleFaces(shape, options, loaded);

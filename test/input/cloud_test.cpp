@@ -180,6 +180,23 @@ TEST(Cloud, GeoreferencedPointsKeepTheirDigits) {
     EXPECT_TRUE(app::makeCloud(box({0, 0, distance}, 0.05), {}).offset.isZero());
 }
 
+TEST(Cloud, FarCoordinatesInSinglePrecisionAreToldToBeCoarse) {
+  app::Shape shape = box({451234.125, 5412345.25, 312.25}, 0.05);
+  EXPECT_FALSE(tells(allNotes(app::makeCloud(shape, {})), {"single precision"}));
+  for (Eigen::Vector3d& p : shape.points)
+    p = p.cast<float>().cast<double>();
+  EXPECT_TRUE(tells(allNotes(app::makeCloud(shape, {})),
+                    {"single precision", "resolves them to 0.5 only", "doubles"}));
+  // a town is as far and larger than the steps; a thing is near
+  shape = box({451234, 5412345, 312}, 200.0);
+  app::Shape near = box(SENSOR_FRAME, 0.2);
+  for (app::Shape* floats : {&shape, &near}) {
+    for (Eigen::Vector3d& p : floats->points)
+      p = p.cast<float>().cast<double>();
+    EXPECT_FALSE(tells(allNotes(app::makeCloud(*floats, {})), {"single precision"}));
+  }
+}
+
 TEST(Cloud, SurfacesAreSampledByAreaAndSaid) {
   // one face of four times the other's area
   app::Shape shape = app::readShape(
