@@ -56,11 +56,12 @@ Eigen::Vector3d findOffset(const std::vector<Eigen::Vector3d>& points) {
  * \return a sentence, or nothing */
 std::string coarseFloats(const std::vector<Eigen::Vector3d>& points) {
   constexpr double COARSE = 0.01;
+  constexpr double FAR = 1e4; // nearer ones stand so close only where there is no thing
   Eigen::Vector3d middle;
   double half_size;
   findMiddle(points, middle, half_size);
   const double far = middle.cwiseAbs().maxCoeff();
-  if (!(far > 0.0) || !std::isfinite(far))
+  if (!(far >= FAR) || !std::isfinite(far))
     return {};
   const double step = std::ldexp(1.0, std::ilogb(far) - 23); // a float has 24 bits
   if (!(step >= COARSE * half_size))

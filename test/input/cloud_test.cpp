@@ -195,6 +195,8 @@ TEST(Cloud, FarCoordinatesInSinglePrecisionAreToldToBeCoarse) {
       p = p.cast<float>().cast<double>();
     EXPECT_FALSE(tells(allNotes(app::makeCloud(*floats, {})), {"single precision"}));
   }
+  near.points.resize(1); // of no size at all
+  EXPECT_FALSE(tells(allNotes(app::makeCloud(near, {})), {"single precision"}));
 }
 
 TEST(Cloud, SurfacesAreSampledByAreaAndSaid) {
