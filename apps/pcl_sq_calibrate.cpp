@@ -214,6 +214,27 @@ Calibration calibrate(const Views& views, bool rational) {
   return c;
 }
 
+/** \brief Squares in millimetres make a baseline that every reader refuses. */
+void refuseImplausibleBaseline(const Calibration& c, double square) {
+  const double length = cv::norm(c.T);
+  const double smallest = pcl_sq::StereoIntrinsics::SMALLEST_BASELINE;
+  const double largest = pcl_sq::StereoIntrinsics::LARGEST_BASELINE;
+  if (length >= smallest && length <= largest)
+    return;
+  char text[300];
+  std::snprintf(text,
+                sizeof(text),
+                "the baseline would be %.4g m with --square %g, which is not plausible "
+                "(%g to %g m); give the side of a square in metres, %g for %g mm.",
+                length,
+                square,
+                smallest,
+                largest,
+                1e-3 * square,
+                square);
+  throw Failure(text);
+}
+
 void write(const std::string& path, const Views& views, const Calibration& c) {
   cv::FileStorage out(formatOf(path, ".yml"),
                       cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
@@ -241,6 +262,7 @@ int work(const Options& o) {
     throw Failure(
         "the calibration did not converge; take pictures of the board in more "
         "poses.");
+  refuseImplausibleBaseline(c, o.square);
   write(o.output, views, c);
   if (!quiet())
     std::printf("%zu pairs of %d x %d px\n"

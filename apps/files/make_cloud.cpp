@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace pcl_sq::app {
@@ -50,8 +51,49 @@ Eigen::Vector3d findOffset(const std::vector<Eigen::Vector3d>& points) {
   return middle;
 }
 
-/** \brief Scales to metres. */
-void toMetres(Shape& shape, const CloudOptions& options) {
+/** \brief Whether a writer rounded the coordinates of a far cloud to floats: then its
+ * points stand on steps that are no smaller than a hundredth of the thing.
+ * \return a sentence, or nothing */
+std::string coarseFloats(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double COARSE = 0.01;
+  constexpr double FAR = 1e4; // nearer ones stand so close only where there is no thing
+  Eigen::Vector3d middle;
+  double half_size;
+  findMiddle(points, middle, half_size);
+  const double far = middle.cwiseAbs().maxCoeff();
+  if (!(far >= FAR) || !std::isfinite(far))
+    return {};
+  const double step = std::ldexp(1.0, std::ilogb(far) - 23); // a float has 24 bits
+  if (!(step >= COARSE * half_size))
+    return {};
+  const auto isFloat = [](double value) {
+    return !std::isfinite(value) ||
+           static_cast<double>(static_cast<float>(value)) == value;
+  };
+  for (const Eigen::Vector3d& p : points)
+    if (!std::all_of(p.begin(), p.end(), isFloat))
+      return {};
+  char text[200];
+  std::snprintf(text,
+                sizeof(text),
+                "its coordinates of about %.7g are in single precision, which resolves "
+                "them to %.2g only; export them as doubles, or shifted to zero",
+                far,
+                step);
+  return text;
+}
+
+/** \brief Scales to metres: a unit that the file names is the one it has. */
+void toMetres(Shape& shape, CloudOptions options, LoadedCloud& loaded) {
+  if (!shape.unit.empty() && shape.unit != options.unit) {
+    // metres are what programs take for granted, so they contradict nothing
+    if (options.unit != CloudOptions().unit)
+      throw Failure("its header says that the unit is " + shape.unit + ", but --unit " +
+                    options.unit +
+                    " is given; leave --unit out, or correct the header");
+    options.unit = shape.unit;
+    loaded.notes.push_back("the unit is " + shape.unit + ", as the file's header says");
+  }
   const double scale = options.scale();
   if (scale != 1.0)
     for (Eigen::Vector3d& p : shape.points)
@@ -101,7 +143,10 @@ LoadedCloud makeCloud(Shape shape, const CloudOptions& options) {
   loaded.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZRGBA>>();
   if (shape.points.empty())
     throw Failure("it holds no points");
-  toMetres(shape, options);
+  loaded.notes = shape.notes;
+  if (std::string coarse = coarseFloats(shape.points); !coarse.empty())
+    loaded.notes.push_back(std::move(coarse));
+  toMetres(shape, options, loaded);
   if (!shape.triangles.empty())
     sampleFaces(shape, options, loaded);
   else

@@ -2,7 +2,9 @@
 #include "input/lines.h"
 
 #include "command_line/app.h"
+#include "report/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -90,6 +92,25 @@ std::string lowered(std::string_view word) {
     if (c >= 'A' && c <= 'Z')
       c = static_cast<char>(c - 'A' + 'a');
   return small;
+}
+
+bool isPadding(std::string_view bytes) {
+  return std::all_of(
+      bytes.begin(), bytes.end(), [](char c) { return isBlank(c) || c == '\0'; });
+}
+
+const char* const DECIMAL_COMMAS = "decimal commas; write points (1.5 instead of 1,5)";
+
+std::string whyNoNumber(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  double whole = 0.0;
+  std::uint64_t digits = 0;
+  const bool decimal = comma != std::string_view::npos &&
+                       parseNumber(word.substr(0, comma), whole) &&
+                       word.substr(comma + 1).find_first_not_of("0123456789eE+-") ==
+                           std::string_view::npos &&
+                       parseCount(word.substr(comma + 1, 1), digits);
+  return decimal ? DECIMAL_COMMAS : quoted(word) + " is no number";
 }
 
 void failInLine(std::size_t line, const std::string& what) {

@@ -41,4 +41,13 @@ std::string lowered(std::string_view word);
 /** \brief Throws Failure: "line N: what". */
 [[noreturn]] void failInLine(std::size_t line, const std::string& what);
 
+/** \brief Whether bytes behind the last point are the end of a line or padding. */
+bool isPadding(std::string_view bytes);
+
+/** \brief What to do about decimal commas. */
+extern const char* const DECIMAL_COMMAS;
+
+/** \brief Why a word is no number, for a message: 1,5 has a decimal comma. */
+std::string whyNoNumber(std::string_view word);
+
 } // namespace pcl_sq::app

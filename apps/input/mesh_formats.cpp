@@ -25,7 +25,7 @@ takeNumbers(std::string_view line, std::size_t number, double* out, std::size_t 
     if (word.empty() || word[0] == '#')
       return k;
     if (!parseNumber(word, out[k]))
-      failInLine(number, app::quoted(word) + " is no number");
+      failInLine(number, whyNoNumber(word));
   }
   return most;
 }
@@ -63,9 +63,27 @@ void addFacet(Shape& shape) {
   ++shape.faces;
 }
 
+/** \brief Facets that a binary STL promises. */
+std::uint64_t facetsOf(std::string_view bytes) {
+  const double count = decode(bytes.data() + STL_HEAD - 4, Scalar::U32, false);
+  return static_cast<std::uint64_t>(count);
+}
+
 Shape readBinaryStl(std::string_view bytes) {
+  if (bytes.size() < STL_HEAD)
+    throw Failure("it ends within its header; it is truncated");
+  const std::uint64_t promised = facetsOf(bytes);
+  const std::uint64_t held = (bytes.size() - STL_HEAD) / STL_FACET;
+  if (promised > held)
+    throw Failure("its header promises " + std::to_string(promised) +
+                  " facets, but it ends after " + std::to_string(held) +
+                  "; it is truncated or corrupt");
+  if (promised < held)
+    throw Failure("its header promises " + std::to_string(promised) +
+                  " facets, but there are bytes for " + std::to_string(held) +
+                  "; write it again");
   Shape shape;
-  shape.points.reserve(3 * (bytes.size() / STL_FACET));
+  shape.points.reserve(3 * held);
   for (std::size_t at = STL_HEAD; at + STL_FACET <= bytes.size(); at += STL_FACET) {
     for (std::size_t corner = 1; corner <= 3; ++corner)
       shape.points.push_back(pointAt(bytes.data() + at + 12 * corner));
@@ -87,6 +105,22 @@ bool addFace(const std::vector<std::int64_t>& corners, Shape& shape) {
                                static_cast<std::uint32_t>(corners[k])});
   shape.faces += corners.size() > 2;
   return true;
+}
+
+void cutStrips(const std::vector<double>& strips,
+               std::vector<std::vector<std::int64_t>>& faces) {
+  constexpr double LARGEST = 4e9; // what is no index is refused as one
+  const auto corner = [&](std::size_t k) {
+    return strips[k] < LARGEST ? static_cast<std::int64_t>(strips[k]) : -1;
+  };
+  std::size_t begin = 0; // of a strip
+  for (std::size_t k = 0; k < strips.size(); ++k)
+    if (strips[k] < 0.0)
+      begin = k + 1;
+    else if (k >= begin + 2) { // each second triangle is seen from behind
+      const std::size_t turned = (k - begin) % 2;
+      faces.push_back({corner(k - 2 + turned), corner(k - 1 - turned), corner(k)});
+    }
 }
 
 Shape readObj(std::string_view bytes) {
@@ -131,13 +165,12 @@ Shape readObj(std::string_view bytes) {
 bool isBinaryStl(std::string_view bytes) {
   if (bytes.size() < STL_HEAD)
     return false;
-  const double count = decode(bytes.data() + STL_HEAD - 4, Scalar::U32, false);
-  return static_cast<double>(bytes.size()) ==
-         static_cast<double>(STL_HEAD) + static_cast<double>(STL_FACET) * count;
+  return bytes.size() == STL_HEAD + STL_FACET * facetsOf(bytes);
 }
 
 Shape readStl(std::string_view bytes) {
-  if (isBinaryStl(bytes))
+  // a text has no zeros, and its length says nothing
+  if (isBinaryStl(bytes) || bytes.find('\0') != std::string_view::npos)
     return readBinaryStl(bytes);
   Shape shape;
   Lines lines(bytes);

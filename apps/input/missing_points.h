@@ -6,7 +6,7 @@
 namespace pcl_sq::app {
 
 /** \brief Makes NaN of the points that stand for "nothing was measured here": not
- * finite, 0 0 0, or at one far value that many points share.
+ * finite, 0 0 0, at one far value that many points share, or all at one place.
  * \return a sentence for each kind, without its full stop */
 std::vector<std::string> dropMissingPoints(Shape& shape);
 

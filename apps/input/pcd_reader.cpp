@@ -32,9 +32,11 @@ public:
   Shape read() {
     if (header_.kind == "ascii")
       readLines();
-    else if (header_.kind == "binary")
+    else if (header_.kind == "binary") {
+      if (!isPadding(lines_.rest().substr(header_.total * header_.point_bytes)))
+        throw Failure(morePoints());
       decode(lines_.rest().data(), false);
-    else {
+    } else {
       const std::unique_ptr<char[]> data = unpack();
       decode(data.get(), true);
     }
@@ -42,6 +44,13 @@ public:
   }
 
 private:
+  std::string morePoints() const {
+    return "it holds more than the " + std::to_string(header_.total) +
+           " points that its header promises; correct WIDTH, HEIGHT and POINTS, or "
+           "write "
+           "it again";
+  }
+
   void readLines() {
     shape_.points.reserve(header_.total);
     std::string_view line;
@@ -54,6 +63,11 @@ private:
       if (word.empty() || word[0] == '#' || word.substr(0, 2) == "//")
         continue;
       readPoint(word, line);
+    }
+    while (lines_.next(line)) {
+      const std::string_view word = takeWord(line);
+      if (!isPadding(word) && word[0] != '#' && word.substr(0, 2) != "//")
+        failInLine(lines_.number(), morePoints());
     }
   }
 
@@ -68,7 +82,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k)
         if (axes_[k]->position == position &&
             !parseNumber(word, point[Eigen::Index(k)]))
-          failInLine(lines_.number(), app::quoted(word) + " is no number");
+          failInLine(lines_.number(), whyNoNumber(word));
       if (color_ && color_->position == position && !parseNumber(word, color))
         failInLine(lines_.number(), app::quoted(word) + " is no colour");
       word = takeWord(line);

@@ -44,7 +44,7 @@ public:
     }
     const std::string_view word = nextWord();
     if (!word.empty() && !parseNumber(word, value))
-      throw Failure(place() + ": " + quoted(word) + " is no number");
+      throw Failure(place() + ": " + whyNoNumber(word));
     return !word.empty();
   }
 

@@ -29,6 +29,13 @@ public:
         readVertices(element);
       else if (element.name == "face")
         readFaces(element);
+      else if (element.name == "tristrips")
+        walk(
+            element,
+            [](std::size_t, double) {},
+            [&](std::size_t, const std::vector<double>& list) {
+              cutStrips(list, faces_);
+            });
       else if (element.name == "range_grid")
         walk(
             element,
@@ -48,6 +55,10 @@ public:
       throw Failure("it has no vertices");
     if (body_.ascii() && !body_.nextWord().empty())
       throw Failure(body_.place() + ": there are more numbers than the header names");
+    if (!body_.ascii() && !isPadding(body_.rest()))
+      throw Failure("there are " + std::to_string(body_.rest().size()) +
+                    " bytes more than its header names; correct the numbers of its "
+                    "elements, or write it again");
     // faces may stand in front of the vertices
     for (std::size_t i = 0; i < faces_.size(); ++i)
       if (!addFace(faces_[i], shape_))

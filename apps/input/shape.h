@@ -20,6 +20,8 @@ struct Shape {
   std::uint32_t width = 0, height = 0;   ///< of an image of points; 0 for a list
   Eigen::Vector3d origin{0.0, 0.0, 0.0}; ///< of the sensor
   Eigen::Quaterniond orientation{1.0, 0.0, 0.0, 0.0}; ///< of the sensor
+  std::string unit; ///< that the file names: m, cm, mm or in; empty if it names none
+  std::vector<std::string> notes; ///< what was assumed, without full stops
 };
 
 /** \brief Reads PCD, PLY, OBJ, STL or lines of numbers. What the bytes start with
@@ -42,5 +44,9 @@ bool isBinaryStl(std::string_view bytes);
 /** \brief Cuts a polygon into triangles about its first corner.
  * \return false if a corner is none of the points */
 bool addFace(const std::vector<std::int64_t>& corners, Shape& shape);
+
+/** \brief Cuts strips of triangles, negative numbers between them, into \a faces. */
+void cutStrips(const std::vector<double>& strips,
+               std::vector<std::vector<std::int64_t>>& faces);
 
 } // namespace pcl_sq::app

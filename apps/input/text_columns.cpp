@@ -25,12 +25,17 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/** \brief Names of a header's line; only one separator there, for "X [m]" is one name.
- */
-std::vector<std::string> splitNames(std::string_view line) {
+std::string_view withoutMarks(std::string_view line) {
   while (!line.empty() && (isSpace(line.front()) || line.front() == '#' ||
                            line.front() == '/' || line.front() == '%'))
     line.remove_prefix(1);
+  return line;
+}
+
+/** \brief Names of a header's line; only one separator there, for "X [m]" is one name.
+ */
+std::vector<std::string> splitNames(std::string_view line) {
+  line = withoutMarks(line);
   std::vector<std::string> names;
   for (const char separator : {';', ',', '\t'}) {
     if (line.find(separator) == std::string_view::npos)
@@ -43,25 +48,46 @@ std::vector<std::string> splitNames(std::string_view line) {
     return names;
   }
   for (auto word = takeWord(line); !word.empty(); word = takeWord(line))
-    names.push_back(lowered(trimmed(word)));
+    if (!names.empty() && (word.front() == '[' || word.front() == '('))
+      names.back() += lowered(trimmed(word)); // X [m] Y [m] Z [m]
+    else
+      names.push_back(lowered(trimmed(word)));
   return names;
 }
 
-/** \brief Whether a name means an axis: x, x [m], x(mm), pos_x, position.x, points:0.
- */
-bool meansAxis(std::string name, std::size_t axis) {
-  const char letter = static_cast<char>('x' + axis);
-  name = name.substr(0, name.find_first_of("[("));
+/** \brief Takes the unit off the end of an axis' name: x [mm], x(mm), x_mm, x/mm, x in
+ * mm. \return the unit, or nothing */
+std::string takeUnit(std::string& name) {
+  std::string unit;
+  if (const std::size_t bracket = name.find_first_of("[(");
+      bracket != std::string::npos) {
+    if (name.back() == ']' || name.back() == ')')
+      unit = unitNamed(std::string_view(name).substr(bracket));
+    name.resize(bracket);
+  } else if (const std::size_t joint = name.find_last_of("_./- ");
+             joint != std::string::npos && joint > 0) {
+    unit = unitNamed(std::string_view(name).substr(joint + 1));
+    if (!unit.empty())
+      name.resize(joint);
+  }
   while (!name.empty() && isSpace(name.back()))
     name.pop_back();
+  if (!unit.empty() && name.size() > 3 && name.substr(name.size() - 3) == " in")
+    name.resize(name.size() - 3);
+  return unit;
+}
+
+/** \brief Whether a name, without its unit, means an axis: x, pos_x, points:0. */
+bool meansAxis(const std::string& name, std::size_t axis) {
+  const char letter = static_cast<char>('x' + axis);
   if (name == std::string(1, letter) || name == "points:" + std::to_string(axis))
     return true;
   for (const char* stem : {"p", "pos", "position", "point", "points", "coord"})
     for (const char* joint : {"_", ".", ":", ""})
       if (name == std::string(stem) + joint + letter)
         return true;
-  for (const char* unit : {"_m", "_mm", "_cm", "_coord", "coord", "_coordinate"})
-    if (name == letter + std::string(unit))
+  for (const char* ending : {"_coord", "coord", "_coordinate"})
+    if (name == letter + std::string(ending))
       return true;
   const char* const surveyors[] = {"easting", "northing", "height"};
   return name == surveyors[axis] || (axis == 2 && name == "elevation");
@@ -78,6 +104,42 @@ std::optional<std::size_t> placeOf(const std::vector<std::string>& names,
 }
 
 } // namespace
+
+std::string unitNamed(std::string_view word) {
+  std::string name = lowered(trimmed(word));
+  for (const char* mark : {"[", "]", "(", ")"})
+    if (const std::size_t at = name.find(mark); at != std::string::npos)
+      name.erase(at, 1);
+  name = std::string(trimmed(name));
+  if (name.size() > 4 && name.back() == 's')
+    name.pop_back(); // meters
+  const struct {
+    const char* unit;
+    std::initializer_list<const char*> names;
+  } units[] = {
+      {"m", {"m", "meter", "metre"}},
+      {"cm", {"cm", "centimeter", "centimetre"}},
+      {"mm", {"mm", "millimeter", "millimetre"}},
+      {"in", {"in", "inch", "inche", "\""}},
+      {"?", {"um", "\xc2\xb5m", "\xce\xbcm", "micron", "micrometer", "micrometre"}},
+      {"?", {"nm", "dm", "km", "ft", "foot", "feet", "yd", "yard"}}};
+  for (const auto& [unit, names] : units)
+    for (const char* known : names)
+      if (name == known)
+        return unit[0] == '?' ? unit + name : unit;
+  return {};
+}
+
+std::string unitOfComment(std::string_view line) {
+  line = withoutMarks(line);
+  const std::string word = lowered(takeWord(line));
+  const std::string key = word.substr(0, word.find_first_of(":="));
+  if (key != "unit" && key != "units")
+    return {};
+  std::string rest = word.substr(key.size()) + std::string(line);
+  rest.erase(0, rest.find_first_not_of(":= \t"));
+  return unitNamed(rest);
+}
 
 void splitCells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
@@ -104,7 +166,10 @@ void splitCells(std::string_view line, std::vector<std::string_view>& cells) {
 }
 
 std::optional<TextColumns> readColumnNames(std::string_view line) {
-  const std::vector<std::string> names = splitNames(line);
+  std::vector<std::string> names = splitNames(line);
+  std::vector<std::string> units;
+  for (std::string& name : names)
+    units.push_back(takeUnit(name));
   TextColumns columns;
   columns.names = names.size();
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -117,6 +182,9 @@ std::optional<TextColumns> readColumnNames(std::string_view line) {
     if (matches != 1)
       return std::nullopt;
   }
+  for (const std::size_t k : columns.axes)
+    if (!units[k].empty())
+      columns.units.push_back(units[k]);
   const auto red = placeOf(names, {"r", "red"}), green = placeOf(names, {"g", "green"}),
              blue = placeOf(names, {"b", "blue"});
   if (red && green && blue)

@@ -14,11 +14,18 @@ namespace pcl_sq::app {
 
 namespace {
 
-const char* const DECIMAL_COMMAS = "decimal commas; write points (1.5 instead of 1,5)";
-
 class TextReader {
 public:
-  explicit TextReader(std::string_view bytes) : lines_(bytes) {}
+  /** \param[in] first_column of the numbers; those before it are no coordinates */
+  explicit TextReader(std::string_view bytes, std::size_t first_column = 0)
+      : lines_(bytes), first_column_(first_column) {}
+
+  /** \brief Whether the first of more columns than coordinates counts the lines, from 0
+   * or from 1: points in a row with such coordinates are none of a surface. */
+  bool isNumbered() const {
+    constexpr std::size_t CHANCE = 8; // lines that may count by accident
+    return counting_ && counted_ >= CHANCE;
+  }
 
   Shape read() {
     std::string_view line;
@@ -45,13 +52,45 @@ private:
   void readComment(std::string_view line) {
     if (!shape_.points.empty())
       return;
-    if (const auto columns = readColumnNames(line); columns && !has_header_)
+    takeUnit(unitOfComment(line));
+    if (const auto columns = readColumnNames(line); columns && !has_header_) {
       columns_ = columns;
+      takeUnits();
+    }
+  }
+
+  void takeUnits() {
+    for (const std::string& unit : columns_->units)
+      takeUnit(unit);
+  }
+
+  void takeUnit(const std::string& unit) {
+    if (unit.empty())
+      return;
+    if (unit[0] == '?')
+      failInLine(lines_.number(),
+                 "the unit " + unit.substr(1) +
+                     " of its header is none of mm, cm, m and in; convert the numbers");
+    if (!shape_.unit.empty() && shape_.unit != unit)
+      failInLine(lines_.number(),
+                 "its header names two units, " + shape_.unit + " and " + unit +
+                     "; correct it");
+    shape_.unit = unit;
+  }
+
+  /** \brief A line of units below the line of names. */
+  bool readUnits() {
+    if (!has_header_ || cells_.size() != columns_->names ||
+        unitNamed(cells_[columns_->axes[0]]).empty())
+      return false;
+    for (const std::size_t k : columns_->axes)
+      takeUnit(unitNamed(cells_[k]));
+    return true;
   }
 
   void readCells(std::string_view line) {
     splitCells(line, cells_);
-    if (shape_.points.empty() && (readCount() || readNames(line)))
+    if (shape_.points.empty() && (readCount() || readUnits() || readNames(line)))
       return;
     if (shape_.points.empty())
       start(line);
@@ -68,9 +107,10 @@ private:
                                               std::to_string(columns_->names));
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!cells_[k].empty() && !parseNumber(cells_[k], value))
-        failInLine(lines_.number(), app::quoted(cells_[k]) + " is no number");
+        failInLine(lines_.number(), whyNoNumber(cells_[k]));
       point[static_cast<Eigen::Index>(axis)] = value;
     }
+    follow();
     shape_.points.push_back(point);
     if (columns_->colors)
       readColor();
@@ -109,6 +149,7 @@ private:
           app::quoted(line) +
               " is neither three numbers nor does it name the columns x, y and z");
     has_header_ = true;
+    takeUnits();
     return true;
   }
 
@@ -122,16 +163,36 @@ private:
       failInLine(lines_.number(),
                  std::to_string(count) + " values, but the header names " +
                      std::to_string(names));
-    if (names != count && !has_header_)
+    if (names + first_column_ != count && !has_header_)
       columns_.reset(); // a comment like any other
     pairs_ = count >= 6 && count % 2 == 0 && line.find(',') != std::string_view::npos;
-    if (columns_)
+    if (columns_) {
+      if (first_column_ + names == count)
+        columns_->moveBy(first_column_);
       return;
+    }
     columns_ = TextColumns();
+    columns_->moveBy(first_column_);
     // .pts: x y z intensity r g b; all else: x y z r g b
-    const std::size_t red = has_count_ && count >= 7 ? 4 : 3;
+    const std::size_t more = first_column_;
+    const std::size_t red = more + (has_count_ && count >= more + 7 ? 4 : 3);
     if (count >= red + 3)
       columns_->colors = {red, red + 1, red + 2};
+  }
+
+  /** \brief Whether the first column goes on counting. */
+  void follow() {
+    const std::size_t named = columns_->names;
+    double value = -1.0;
+    const bool spare = named == 0 ? cells_.size() > 3 : cells_.size() == named + 1;
+    if (!counting_ || !spare || !parseNumber(cells_[0], value)) {
+      counting_ = false;
+      return;
+    }
+    if (counted_ == 0)
+      counted_from_ = value;
+    counting_ = (counted_from_ == 0.0 || counted_from_ == 1.0) &&
+                value == counted_from_ + static_cast<double>(counted_++);
   }
 
   /** \brief Whether the cells are what decimal commas tear apart: 0,0075 -> 0 0075. */
@@ -166,6 +227,10 @@ private:
   }
 
   Lines lines_;
+  std::size_t first_column_;
+  bool counting_ = true;      ///< the first column, so far
+  double counted_from_ = 0.0; ///< its first number
+  std::size_t counted_ = 0;   ///< lines
   std::vector<std::string_view> cells_;
   std::optional<TextColumns> columns_;
   bool has_count_ = false, has_header_ = false;
@@ -177,7 +242,14 @@ private:
 } // namespace
 
 Shape readText(std::string_view bytes) {
-  return TextReader(bytes).read();
+  TextReader reader(bytes);
+  Shape shape = reader.read();
+  if (!reader.isNumbered())
+    return shape;
+  shape = TextReader(bytes, 1).read();
+  shape.notes.emplace_back("the first column counts the lines, so x, y and z are taken "
+                           "from the columns after it");
+  return shape;
 }
 
 } // namespace pcl_sq::app

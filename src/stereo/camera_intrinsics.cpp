@@ -19,7 +19,8 @@ bool StereoIntrinsics::isValid(std::string* why) const {
                 "the second camera is left of the first: exchange the two");
   const std::string implausible = "the baseline of " + std::to_string(baseline) +
                                   " m is not plausible: give the file's unit of length";
-  check.require(baseline >= 1e-3 && baseline <= 10.0, implausible.c_str());
+  check.require(baseline >= SMALLEST_BASELINE && baseline <= LARGEST_BASELINE,
+                implausible.c_str());
   return check.passed();
 }
 

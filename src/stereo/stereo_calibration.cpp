@@ -94,11 +94,12 @@ StereoCalibration StereoCalibration::fromRaw(const RawStereoCameras& cameras) {
         "load",
         "the baseline is zero (T = 0), so disparity says nothing about depth; "
         "correct the calibration.");
-  if (length < 1e-3 || length > 10.0)
+  if (length < StereoIntrinsics::SMALLEST_BASELINE ||
+      length > StereoIntrinsics::LARGEST_BASELINE)
     detail::raiseCalibration(
         "load",
         "the baseline of " + std::to_string(length) +
-            " m is not plausible; give the file's unit of length.");
+            " m is not plausible; give the file's unit of length (--calib-unit).");
   const double* t = cameras.T.ptr<double>();
   if (std::abs(t[1]) > std::abs(t[0]))
     detail::raiseCalibration(

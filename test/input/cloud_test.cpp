@@ -59,6 +59,24 @@ TEST(Cloud, UnitsBecomeMetres) {
   }
 }
 
+TEST(Cloud, TheFilesOwnUnitIsUsedAndNotContradicted) {
+  app::Shape shape = box({0, 0, 650}, 60.0);
+  shape.unit = "mm";
+  app::CloudOptions options;
+  const app::LoadedCloud loaded = app::makeCloud(shape, options);
+  EXPECT_NEAR((*loaded.cloud)[0].z, 1e-3 * shape.points[0].z(), 1e-6);
+  EXPECT_TRUE(tells(allNotes(loaded), {"the unit is mm, as the file's header says"}));
+  options.unit = "mm";
+  EXPECT_TRUE(app::makeCloud(shape, options).notes.empty());
+  options.unit = "in";
+  try {
+    (void)app::makeCloud(shape, options);
+    ADD_FAILURE() << "two units";
+  } catch (const app::Failure& failure) {
+    EXPECT_TRUE(tells(failure.what(), {"unit is mm", "--unit in", "leave --unit out"}));
+  }
+}
+
 TEST(Cloud, ZerosAreMissingInListsAndImages) {
   for (const bool image : {false, true}) {
     app::Shape shape = box(SENSOR_FRAME, 0.2);
@@ -99,6 +117,40 @@ TEST(Cloud, FarValuesThatManyPointsShareAreMissing) {
   EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 400u);
 }
 
+TEST(Cloud, ManyPointsAtOnePlaceAreMissingHoweverNear) {
+  for (const Eigen::Vector3d& marker :
+       {Eigen::Vector3d(0, 0, -1), {-1, -1, -1}, {0, 0, 4}, {0.1, 0, 0.7}})
+    for (const std::size_t step : {1u, 5u}) {
+      app::Shape shape = box(SENSOR_FRAME, 0.2); // most are missing, or few
+      for (std::size_t i = 0; i < 450; i += step)
+        shape.points[i] = marker;
+      const app::LoadedCloud loaded = app::makeCloud(shape, {});
+      EXPECT_EQ(loaded.finite_points, step == 1 ? 50u : 410u) << marker.transpose();
+      EXPECT_TRUE(tells(allNotes(loaded), {" points ", " taken as missing"}));
+    }
+  app::Shape shape = box(SENSOR_FRAME, 0.2); // two markers, one of them of rays
+  for (std::size_t i = 0; i < 50; ++i) {
+    shape.points[i] = {-1, -1, -1};
+    shape.points[100 + i] = {0.01 * double(i), 0, 8};
+  }
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 400u);
+}
+
+TEST(Cloud, PointsThatMeetAsOthersDoAreNotMissing) {
+  app::Shape shape = box(SENSOR_FRAME, 0.2);
+  for (std::size_t i = 1; i < 6; ++i) // a few doubles
+    shape.points[i] = shape.points[0];
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 500u);
+  shape = box(SENSOR_FRAME, 0.2);
+  for (int i = 0; i < 5; ++i) // joined with itself, again and again
+    shape.points.insert(shape.points.end(), shape.points.begin(), shape.points.end());
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 32u * 500u);
+  shape = box(SENSOR_FRAME, 0.2, 20000);
+  for (Eigen::Vector3d& p : shape.points) // in steps of five centimetres
+    p = (20.0 * p).array().round() / 20.0;
+  EXPECT_EQ(app::makeCloud(shape, {}).finite_points, 20000u);
+}
+
 TEST(Cloud, WallsAndStraysAreNotMissing) {
   app::Shape shape = box(SENSOR_FRAME, 0.2); // a wall of exact numbers behind
   for (std::size_t i = 0; i < 100; ++i)
@@ -126,6 +178,25 @@ TEST(Cloud, GeoreferencedPointsKeepTheirDigits) {
   // clouds of sensors and robots stay where they are
   for (const double distance : {0.5, 3.0})
     EXPECT_TRUE(app::makeCloud(box({0, 0, distance}, 0.05), {}).offset.isZero());
+}
+
+TEST(Cloud, FarCoordinatesInSinglePrecisionAreToldToBeCoarse) {
+  app::Shape shape = box({451234.125, 5412345.25, 312.25}, 0.05);
+  EXPECT_FALSE(tells(allNotes(app::makeCloud(shape, {})), {"single precision"}));
+  for (Eigen::Vector3d& p : shape.points)
+    p = p.cast<float>().cast<double>();
+  EXPECT_TRUE(tells(allNotes(app::makeCloud(shape, {})),
+                    {"single precision", "resolves them to 0.5 only", "doubles"}));
+  // a town is as far and larger than the steps; a thing is near
+  shape = box({451234, 5412345, 312}, 200.0);
+  app::Shape near = box(SENSOR_FRAME, 0.2);
+  for (app::Shape* floats : {&shape, &near}) {
+    for (Eigen::Vector3d& p : floats->points)
+      p = p.cast<float>().cast<double>();
+    EXPECT_FALSE(tells(allNotes(app::makeCloud(*floats, {})), {"single precision"}));
+  }
+  near.points.resize(1); // of no size at all
+  EXPECT_FALSE(tells(allNotes(app::makeCloud(near, {})), {"single precision"}));
 }
 
 TEST(Cloud, SurfacesAreSampledByAreaAndSaid) {

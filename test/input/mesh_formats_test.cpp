@@ -87,3 +87,37 @@ TEST(MeshFormats, LengthsThatAreNoneAreRefused) {
                  app::Failure)
         << length;
 }
+
+TEST(MeshFormats, ATruncatedBinaryStlIsCalledTruncated) {
+  const std::string whole = stl(true);
+  for (const std::size_t missing : {1u, 50u, 120u, 190u})
+    for (const char* head : {"", "solid"}) {
+      std::string bytes = head + whole.substr(std::string(head).size());
+      bytes.resize(bytes.size() - missing);
+      const std::string why = refusal(bytes, ".stl");
+      EXPECT_TRUE(tells(why, {"is truncated"})) << missing << head << ": " << why;
+    }
+  EXPECT_TRUE(tells(refusal(whole.substr(0, whole.size() - 60), ".stl"),
+                    {"promises 4 facets", "ends after 2"}));
+  // what some programs write behind the last facet
+  EXPECT_EQ(app::readShape(whole + "\r\n", ".stl").faces, 4u);
+  EXPECT_TRUE(tells(refusal(whole + whole.substr(84, 50), ".stl"),
+                    {"promises 4 facets", "bytes for 5"}));
+}
+
+TEST(MeshFormats, StripsOfTrianglesArePlySurfaces) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+      "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 5 5\n";
+  const app::Shape shape = app::readShape(ply + "9 0 1 2 3 4 -1 3 4 5\n", ".ply");
+  ASSERT_EQ(shape.faces, 4u);
+  for (std::size_t i = 0; i < 3; ++i) { // all seen from one side
+    const auto& t = shape.triangles[i];
+    const Eigen::Vector3d a = shape.points[t[0]];
+    EXPECT_GT((shape.points[t[1]] - a).cross(shape.points[t[2]] - a).z(), 0.0) << i;
+  }
+  EXPECT_EQ(shape.triangles[3], (std::array<std::uint32_t, 3>{3, 4, 5}));
+  EXPECT_TRUE(
+      tells(refusal(ply + "3 0 1 6\n", ".ply"), {"vertex that does not exist"}));
+}

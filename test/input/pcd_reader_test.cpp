@@ -50,6 +50,20 @@ TEST(PcdReader, ReadsEveryTypeOfNumbers) {
   }
 }
 
+TEST(PcdReader, MorePointsThanTheHeaderPromisesAreRefused) {
+  EXPECT_TRUE(tells(refusal(TEXT + "\n7 8 9\n", ".pcd"),
+                    {"line 15", "more than the 2 points", "correct WIDTH"}));
+  expectTwoPoints(app::readShape(TEXT + "\n \n# the end\n", ".pcd"));
+  const std::string binary = HEADER + "DATA binary\n" + bytesOf(1.0f) + bytesOf(2.0f) +
+                             bytesOf(3.0f) + bytesOf(-4.0f) + bytesOf(5.5f) +
+                             bytesOf(0.6f);
+  expectTwoPoints(app::readShape(binary + "\r\n ", ".pcd"));
+  expectTwoPoints(app::readShape(binary + std::string(20, '\0'), ".pcd"));
+  EXPECT_TRUE(
+      tells(refusal(binary + bytesOf(7.0f) + bytesOf(8.0f) + bytesOf(9.0f), ".pcd"),
+            {"more than the 2 points"}));
+}
+
 TEST(PcdReader, ReadsTextWhateverStandsAroundIt) {
   expectTwoPoints(app::readShape(TEXT, ".pcd"));
   expectTwoPoints(app::readShape("\xef\xbb\xbf" + TEXT, ".pcd"));
@@ -133,7 +147,7 @@ TEST(PcdReader, NamesTheLineOrTheFieldThatIsWrong) {
     EXPECT_FALSE(why.empty()) << from << " -> " << to;
     return why;
   };
-  EXPECT_TRUE(tells(refused("5.5", "5,5"), {"line 13", "'5,5'"}));
+  EXPECT_TRUE(tells(refused("5.5", "5,5"), {"line 13", "decimal commas"}));
   EXPECT_TRUE(
       tells(refused("5.5 6e-1", "5.500000"), {"line 13", "2 numbers instead of 3"}));
   EXPECT_TRUE(tells(refused("-4 5.5 6e-1\n", ""), {"2 points", "holds 1"}));

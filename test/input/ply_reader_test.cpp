@@ -52,6 +52,15 @@ TEST(PlyReader, ReadsEveryTypeOfNumbersInBothOrders) {
     }
 }
 
+TEST(PlyReader, MoreThanTheHeaderNamesIsRefused) {
+  for (const bool big : {false, true}) {
+    const std::string bytes = typedPly<float>("float", big);
+    expectPoints(app::readShape(bytes + "\n", ".ply"));
+    EXPECT_TRUE(tells(refusal(bytes + bytesOf(7.0f, big) + bytesOf(8.0f, big), ".ply"),
+                      {"8 bytes more than its header names"}));
+  }
+}
+
 TEST(PlyReader, ReadsVerticesThatStandOnSeveralLines) {
   const std::string colored = vertexElement("float32", 2) +
                               "property uchar red\nproperty uchar green\n"
@@ -163,7 +172,9 @@ TEST(PlyReader, NeverBelievesAHeaderThatTheFileDoesNotBack) {
       // nothing follows for an element without properties: it is no work
       const std::string empty =
           header(format, "element foo " + count + "\n" + replaced(vertex, "4", "1"));
-      EXPECT_EQ(refusal(empty + (format == "ascii" ? "1 2 3" : body), ".ply"), "");
+      EXPECT_EQ(
+          refusal(empty + (format == "ascii" ? "1 2 3" : body.substr(0, 12)), ".ply"),
+          "");
       EXPECT_FALSE(refusal(header(format,
                                   vertex + "element foo " + count +
                                       "\nproperty list uchar int a\n") +

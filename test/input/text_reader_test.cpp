@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_bytes.h"
 #include "input/lines.h"
+#include "text.h"
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,82 @@ TEST(TextReader, RefusesDecimalCommasByName) {
                                  "1 0 2\n1,5 2 3\n"})
     EXPECT_TRUE(tells(refusal(text, ".xyz"), {"line ", "decimal commas"})) << text;
   EXPECT_TRUE(tells(refusal("1 2 3\n1 2 3\n1,0 2,0 3,0\n", ""), {"line 3"}));
+}
+
+TEST(TextReader, DecimalCommasAreNamedInEveryFormatOfText) {
+  const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                          "property float y\nproperty float z\nend_header\n";
+  for (const auto& [head, extension] :
+       {std::pair<std::string, std::string>{pcd, ".pcd"},
+        {ply, ".ply"},
+        {"v ", ".obj"}}) {
+    EXPECT_TRUE(tells(refusal(head + "-0,5 1,25e-3 0,7\n", extension),
+                      {"line ", "decimal commas; write points"}));
+    EXPECT_TRUE(
+        tells(refusal(head + "1,2,3 4 5\n", extension), {"'1,2,3' is no number"}));
+  }
+}
+
+TEST(TextReader, TheUnitThatAHeaderNamesIsTheFiles) {
+  const auto unitOf = [](const std::string& head) {
+    const app::Shape shape = app::readShape(head + "1.5 2.5 3.5\n4 5 6\n", ".csv");
+    EXPECT_EQ(shape.points.size(), 2u) << head;
+    EXPECT_EQ(shape.points[0], Eigen::Vector3d(1.5, 2.5, 3.5)) << head;
+    return shape.unit;
+  };
+  for (const char* head : {"x [mm],y [mm],z [mm]\n",
+                           "X(mm);Y(mm);Z(mm)\n",
+                           "x_mm,y_mm,z_mm\n",
+                           "pos_x_mm pos_y_mm pos_z_mm\n",
+                           "# X [mm] Y [mm] Z [mm]\n",
+                           "// X [millimeters]\tY [millimeters]\tZ [millimeters]\n",
+                           "x in mm;y in mm;z in mm\n",
+                           "x/mm;y/mm;z/mm\n",
+                           "x,y,z\nmm,mm,mm\n",
+                           "# Units: mm\n",
+                           "# x y z [mm]\n"})
+    EXPECT_EQ(unitOf(head), "mm") << head;
+  EXPECT_EQ(unitOf("X [cm],Y [cm],Z [cm]\n"), "cm");
+  EXPECT_EQ(unitOf("X (in);Y (in);Z (in)\n"), "in");
+  EXPECT_EQ(unitOf("x_m y_m z_m\n"), "m");
+  for (const char* head :
+       {"x,y,z\n", "# a can of 66 mm\n", "x (map),y (map),z (map)\n", ""})
+    EXPECT_EQ(unitOf(head), "") << head;
+  EXPECT_TRUE(tells(refusal("x [ft],y [ft],z [ft]\n1 2 3\n", ".csv"),
+                    {"line 1", "the unit ft", "convert"}));
+  EXPECT_TRUE(
+      tells(refusal("x_mm,y_mm,z_m\n1 2 3\n", ".csv"), {"two units, mm and m"}));
+  EXPECT_TRUE(tells(refusal("# unit: m\nx_mm,y_mm,z_mm\n1 2 3\n", ".csv"),
+                    {"line 2", "two units, m and mm"}));
+}
+
+TEST(TextReader, AColumnThatCountsTheLinesIsNoCoordinate) {
+  const auto numbered = [](int first, const char* separator, const std::string& more) {
+    std::string text;
+    for (int i = 0; i < 20; ++i)
+      text += std::to_string(i + first) + separator + std::to_string(0.5 * i) +
+              separator + "2" + separator + "3" + more + "\n";
+    return text;
+  };
+  for (const int first : {0, 1})
+    for (const char* separator : {" ", ","}) {
+      const app::Shape shape = app::readShape(numbered(first, separator, ""), ".txt");
+      ASSERT_EQ(shape.points.size(), 20u);
+      EXPECT_EQ(shape.points[4], Eigen::Vector3d(2, 2, 3));
+      ASSERT_EQ(shape.notes.size(), 1u);
+      EXPECT_TRUE(tells(shape.notes[0], {"first column counts the lines"}));
+    }
+  EXPECT_EQ(app::readShape(numbered(0, " ", " 255 0 1"), ".txt").colors.at(3),
+            0xff0001u);
+  // R names all columns but that one
+  const app::Shape named = app::readShape("y z x\n" + numbered(1, " ", ""), ".txt");
+  EXPECT_EQ(named.points[4], Eigen::Vector3d(3, 2, 2));
+  // three columns, or other steps: x, y, z as ever
+  const std::string other = replaced(numbered(0, " ", ""), "\n7 ", "\n7.5 ");
+  for (const std::string& text : {other, numbered(2, " ", "")})
+    EXPECT_TRUE(app::readShape(text, ".txt").notes.empty());
+  EXPECT_EQ(app::readShape(other, ".txt").points[4], Eigen::Vector3d(4, 2, 2));
 }
 
 TEST(TextReader, NamesTheLineThatIsWrong) {

@@ -9,6 +9,9 @@ namespace pcl_sq {
 
 /** \brief A rectified pair: the left camera and what turns disparity into depth. */
 struct PCL_SQ_EXPORTS StereoIntrinsics : CameraIntrinsics {
+  static constexpr double SMALLEST_BASELINE = 1e-3; ///< that is plausible [m]
+  static constexpr double LARGEST_BASELINE = 10.0;  ///< that is plausible [m]
+
   double baseline = 0.0; ///< distance of the cameras along x [m], positive
   double doffs = 0.0;    ///< right minus left principal point's x [px]
 

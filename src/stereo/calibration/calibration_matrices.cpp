@@ -4,8 +4,10 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 
 namespace pcl_sq::detail {
 namespace {
@@ -71,6 +73,45 @@ StereoIntrinsics plainNumbers(const Named& named, double unit) {
   return k;
 }
 
+/** \brief A file that tells its baseline twice tells the same: which of two is right
+ * nobody knows, and depth is proportional to it. */
+void refuseContradictions(const Named& named, double unit, const RawStereoCameras& c) {
+  constexpr double ROUNDING = 0.02; // of figures that people copy
+  std::vector<std::pair<std::string, double>> baselines;
+  const auto add = [&](const std::string& name, double baseline) {
+    if (std::isfinite(baseline) && baseline != 0.0)
+      baselines.emplace_back(name, std::abs(baseline));
+  };
+  const auto nameOf = [&](M meaning, int side) {
+    return named.values.at({meaning, side}).name;
+  };
+  if (const cv::Mat t = named.matrix(M::TRANSLATION); !t.empty())
+    add(nameOf(M::TRANSLATION, 0), unit * cv::norm(t));
+  if (!c.P1.empty() && !c.P2.empty()) {
+    const cv::Mat offset = c.P1.rowRange(0, 2).col(3) - c.P2.rowRange(0, 2).col(3);
+    add(nameOf(M::PROJECTION, 2), cv::norm(offset) / c.P2.at<double>(0, 0));
+  }
+  if (const cv::Mat q = named.matrix(M::REPROJECTION); !q.empty())
+    add(nameOf(M::REPROJECTION, 0), unit / q.at<double>(3, 2));
+  add("baseline", unit * named.number({"baseline", "stereob"}));
+  add("baseline_m", named.number({"baselinem"}));
+  add("bf / fx", unit * named.number({"bf", "stereobf"}) / named.number({"fx"}));
+  for (const auto& [name, baseline] : baselines)
+    if (std::abs(baseline - baselines[0].second) >
+        ROUNDING * std::max(baseline, baselines[0].second)) {
+      char text[300];
+      std::snprintf(text,
+                    sizeof(text),
+                    "%.40s says that the baseline is %.6g m, but %.40s says %.6g m; "
+                    "correct the calibration, or leave the wrong one out.",
+                    baselines[0].first.c_str(),
+                    baselines[0].second,
+                    name.c_str(),
+                    baseline);
+      raiseLoad(text);
+    }
+}
+
 /** \brief From Q: X = u - cx, Y = v - cy, Z = f, W = (d + doffs) / B. */
 StereoIntrinsics fromReprojection(const cv::Mat& q, double unit) {
   StereoIntrinsics k;
@@ -122,6 +163,8 @@ void readNamed(const CalibrationDocuments& documents,
   for (const auto& [key, value] : named.values)
     if (key.first == M::LENS_MODEL)
       setLens(value.text, contents);
+  for (const std::string& lens : named.lenses)
+    setLens(lens, contents);
   if (const double flag = named.number({"fisheye", "isfisheye"}); flag > 0.0)
     c.fisheye = true;
   if (const double xi = named.number({"xi", "xi1", "xi2"}); std::abs(xi) > 0.0)
@@ -133,6 +176,7 @@ void readNamed(const CalibrationDocuments& documents,
       p.col(3) *= unit;
       (side == 1 ? c.P1 : c.P2) = p;
     }
+  refuseContradictions(named, unit, c);
   if (!named.matrix(M::CAMERA_MATRIX, 1).empty() ||
       !named.matrix(M::CAMERA_MATRIX, 2).empty()) {
     readRaw(named, unit, contents);

@@ -49,14 +49,15 @@ StereoCalibration StereoCalibration::fromText(const std::vector<CalibrationText>
     detail::raiseLoad("'" + texts[0].name + "' is empty; give a calibration file.");
   detail::CalibrationContents contents;
   try {
-    if (!detail::readKalibr(documents, contents) &&
-        !detail::readEuroc(documents, contents) &&
-        !detail::readZed(documents, {width, height}, contents) &&
-        !detail::readMiddlebury(documents, contents))
+    if (detail::readKalibr(documents, contents) ||
+        detail::readEuroc(documents, contents))
+      contents.cameras.T *= unit; // in metres, unless the board's size was not
+    else if (!detail::readZed(documents, {width, height}, contents) &&
+             !detail::readMiddlebury(documents, contents))
       detail::readNamed(documents, unit, contents);
     if (contents.metres && unit != 1.0)
-      detail::raiseLoad("this kind of file has a unit of length of its own; leave out "
-                        "--calib-unit.");
+      detail::raiseLoad("ZED's and Middlebury's files have a unit of length of their "
+                        "own; leave out --calib-unit.");
     StereoCalibration result =
         contents.raw ? fromRaw(contents.cameras) : fromRectified(contents.intrinsics);
     result.notes_ = contents.notes;

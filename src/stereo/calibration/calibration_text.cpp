@@ -5,6 +5,7 @@
 #include "stereo/calibration/calibration_tree.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -130,6 +131,24 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
+bool isComment(const std::string& line) {
+  return line[0] == '#' || line[0] == ';' || line.rfind("//", 0) == 0;
+}
+
+/** \brief A line without the comment behind it: words after a blank and a mark, for
+ * rows of numbers stand between semicolons too. */
+std::string withoutComment(const std::string& line) {
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if ((line[i] == ';' || line[i] == '#') &&
+        std::isspace(static_cast<unsigned char>(line[i - 1])) != 0) {
+      const std::size_t first = line.find_first_not_of(" \t;#", i);
+      if (first == std::string::npos ||
+          std::isalpha(static_cast<unsigned char>(line[first])) != 0)
+        return trimmed(line.substr(0, i));
+    }
+  return line;
+}
+
 /** \brief "name=value" or "name: value" in lines, under "[section]"s if there are any;
  * false if a line is neither. */
 bool readLines(const std::string& text, CalibrationDocument& document) {
@@ -137,8 +156,9 @@ bool readLines(const std::string& text, CalibrationDocument& document) {
   std::string section;
   for (std::string line; std::getline(in, line);) {
     line = trimmed(line);
-    if (line.empty() || line[0] == '#' || line[0] == ';' || line.rfind("//", 0) == 0)
+    if (line.empty() || isComment(line))
       continue;
+    line = withoutComment(line);
     if (line.front() == '[' && line.back() == ']') {
       section = trimmed(line.substr(1, line.size() - 2)) + "/";
       continue;
@@ -163,7 +183,7 @@ bool looksLikeLines(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
     line = trimmed(line);
-    if (line.empty() || line[0] == '#')
+    if (line.empty() || isComment(line))
       continue;
     if (line.front() == '[')
       return true;

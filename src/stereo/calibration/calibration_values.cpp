@@ -3,6 +3,7 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace pcl_sq::detail {
@@ -47,6 +48,35 @@ bool isMatrixLike(M meaning) {
          meaning != M::WIDTH && meaning != M::HEIGHT;
 }
 
+bool holds(const std::string& text, std::initializer_list<const char*> parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](const char* part) {
+    return text.find(part) != std::string::npos;
+  });
+}
+
+/** \brief The lens that an entry names under any name, for a fisheye that is read as a
+ * pinhole bends every line: "lens: equidistant", "calibration/type: fisheye", "fisheye:
+ * true". Names of things and paths may hold the word too, and say nothing.
+ * \return empty if it names none, or a pinhole */
+std::string fisheyeOf(const std::string& plain, const CalibrationEntry& entry) {
+  const std::string value = plainName(entry.text);
+  if (holds(plain, {"fisheye", "equidistant"})) {
+    for (const char* yes : {"true", "yes", "on", "1", "y"})
+      if (value == yes)
+        return "fisheye";
+    if (value.empty() || value == "false" || value == "no" || value == "off")
+      return {};
+  }
+  if (understandLens(entry.text) == LensName::FISHEYE &&
+      !holds(plain, {"name", "topic", "frame"}))
+    return entry.text;
+  const bool lens = holds(value, {"fisheye", "equidistant", "kannalabrandt"});
+  const bool other =
+      entry.text.find_first_of("/\\.") != std::string::npos ||
+      holds(plain, {"name", "topic", "frame", "comment", "note", "desc"});
+  return lens && !other ? entry.text : std::string();
+}
+
 /** \brief A name for a message: as the file spells it. */
 void addEntry(const std::string& path,
               const CalibrationEntry& entry,
@@ -56,6 +86,11 @@ void addEntry(const std::string& path,
   if (from_zero && name.side != 0 && !name.from_zero)
     name.side = 2; // K0 and K1
   std::string plain = plainName(path);
+  if (name.meaning != M::LENS_MODEL)
+    if (const std::string lens = fisheyeOf(plain, entry); !lens.empty()) {
+      named.lenses.push_back(lens);
+      return;
+    }
   if (entry.numbers.size() == 1 && name.meaning != M::DISTORTION &&
       name.meaning != M::WIDTH && name.meaning != M::HEIGHT) {
     for (const char* prefix : {"camera", "cam"}) // Camera.fx
@@ -73,10 +108,6 @@ void addEntry(const std::string& path,
     const int side = name.meaning == M::SIZE ? 0 : name.side;
     named.add(name.meaning, side, {path, matrixFor(name.meaning, entry, path), {}});
   } else if (name.meaning == M::UNKNOWN) {
-    // "model: fisheye", but not "model: OAK-D"
-    if (plain.find("model") != std::string::npos &&
-        understandLens(entry.text) == LensName::FISHEYE)
-      named.add(M::LENS_MODEL, name.side, {path, {}, entry.text});
     const bool camera_like = entry.rows >= 3 && entry.cols >= 3 && entry.cols <= 4;
     const bool lens_like =
         (plain.find("dist") != std::string::npos || plain.rfind("xi", 0) == 0) &&

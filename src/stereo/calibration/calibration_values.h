@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_sq::detail {
 
@@ -20,6 +21,7 @@ struct NamedValues {
   };
   std::map<std::pair<CalibrationMeaning, int>, Value> values;
   std::map<std::string, double> numbers; ///< plain numbers by plainName()
+  std::vector<std::string> lenses; ///< fisheyes that values of other names speak of
 
   cv::Mat matrix(CalibrationMeaning meaning, int side = 0) const;
   /** \brief The first number there is of some names; NaN if there is none. */
