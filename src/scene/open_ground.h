@@ -11,4 +11,10 @@ namespace pcl_sq::detail {
  * \param[in] above pixels of things */
 [[nodiscard]] CellMask openGround(const CellMask& above);
 
+/** \brief Pixels without depth about which there is nothing but some thing's: what a
+ * sensor misses within it is no border of it. \param[in] pixels of things
+ * \param[in] most that hang together: where more are missing two things may end */
+[[nodiscard]] CellMask
+gapsWithin(const CellMask& pixels, const CellMask& missing, std::size_t most);
+
 } // namespace pcl_sq::detail

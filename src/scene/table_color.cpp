@@ -24,40 +24,6 @@ constexpr double HIGHEST = 2.0;  ///< standing heights about the table
 constexpr int HALO = 8;          ///< pixels: as far as windows and interpolation reach
 constexpr int MISSING = 4;       ///< pixels without depth that are bridged
 
-/** \brief Few pixels without depth about which there is nothing but some thing's: what
- * a sensor misses within it is no border of it. Where more are missing two things may
- * end. */
-CellMask gapsWithin(const SceneView& view, const CellMask& pixels) {
-  CellMask gaps(pixels.width, pixels.height), known(pixels.width, pixels.height);
-  std::vector<int> gap;
-  for (int start = 0; start < int(pixels.cells.size()); ++start) {
-    if (pixels.cells[std::size_t(start)] || known.cells[std::size_t(start)] ||
-        view.finite(start))
-      continue;
-    bool enclosed = true;
-    gap.assign(1, start);
-    known.cells[std::size_t(start)] = 1;
-    for (std::size_t i = 0; i < gap.size(); ++i) {
-      const int x = gap[i] % view.width, y = gap[i] / view.width;
-      for (const auto& [u, v] :
-           {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
-        const int c = v * view.width + u;
-        if (u < 0 || v < 0 || u >= view.width || v >= view.height)
-          enclosed = false;
-        else if (!pixels(u, v) && view.finite(c))
-          enclosed = false;
-        else if (!pixels(u, v) && !known(u, v)) {
-          known.cells[std::size_t(c)] = 1;
-          gap.push_back(c);
-        }
-      }
-    }
-    for (const int c : gap)
-      gaps.cells[std::size_t(c)] = enclosed && int(gap.size()) <= MISSING * MISSING;
-  }
-  return gaps;
-}
-
 float hueDistance(const Eigen::Vector4f& a, const Eigen::Vector4f& b) {
   return (a - b).head<3>().norm(); // a shadow darkens the table, no more
 }
@@ -206,7 +172,10 @@ void TableColor::removeHalo(CellMask& pixels) const {
     use(c % w, c / w - 1);
     use(c % w, c / w + 1);
   };
-  const CellMask gaps = gapsWithin(view_, pixels);
+  CellMask missing(w, view_.height);
+  for (std::size_t c = 0; c < missing.cells.size(); ++c)
+    missing.cells[c] = !pixels.cells[c] && !view_.finite(int(c));
+  const CellMask gaps = gapsWithin(pixels, missing, MISSING * MISSING);
   const auto ends = [&](int x, int y) { return !pixels(x, y) && !gaps(x, y); };
   for (int y = 0; y < view_.height; ++y)
     for (int x = 0; x < w; ++x)
