@@ -66,7 +66,8 @@ def instrument(source):
     # what is made of a number is no constant of the compiler any more
     for path in (source / "src").rglob("*.cpp"):
         text = path.read_text()
-        changed = re.sub(r"constexpr (double [A-Z_]+ =[^;]*\b[A-Z][A-Z_]+\b)", r"const \1", text) \
+        changed = re.sub(r"constexpr (double [A-Z_]+ =[^;]*\b[A-Z][A-Z_]+\b|"
+                         r"int [A-Z_]+ =[^;]*tuning::)", r"const \1", text) \
             if "tuning::" in text else text
         if changed != text:
             path.write_text(changed)
