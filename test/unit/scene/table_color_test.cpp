@@ -58,6 +58,23 @@ int grown(int blue) {
   return int(std::count(labels.values.begin(), labels.values.end(), 1));
 }
 
+/** \brief How many pixels above a table that is seen from 1 m remain. */
+double withoutHalo(const Eigen::Matrix3Xf& points,
+                   const ColorMatrix& colors,
+                   const CellMask& above) {
+  PinholeCamera camera;
+  camera.fx = camera.fy = 500.0;
+  TableModel table;
+  table.normal = -Eigen::Vector3d::UnitZ();
+  table.offset = 1.0;
+  table.sigma = 0.001;
+  const CloudPoints seen(points);
+  const SceneView view{seen, WIDTH, HEIGHT, colors, camera, table};
+  CellMask left = above;
+  TableColor(view, above).removeHalo(left);
+  return double(left.count());
+}
+
 } // namespace
 
 TEST(TableColor, FeetAreTheThingsHoweverTheTablesColourScatters) {
@@ -87,17 +104,8 @@ TEST(TableColor, IsNotThatOfWhatThingsEnclose) {
         colors.col(c) << 140, 140, 140;
       above.cells[std::size_t(c)] = wall && y != 60; // and is not seen in one line
     }
-  PinholeCamera camera;
-  camera.fx = camera.fy = 500.0;
-  TableModel table;
-  table.normal = -Eigen::Vector3d::UnitZ();
-  table.offset = 1.0;
-  table.sigma = 0.001;
-  const CloudPoints seen(points);
-  const SceneView view{seen, WIDTH, HEIGHT, colors, camera, table};
-  CellMask left = above;
-  TableColor(view, above).removeHalo(left);
-  EXPECT_GT(double(left.count()), 0.9 * double(above.count()));
+  const double left = withoutHalo(points, colors, above);
+  EXPECT_GT(left, 0.9 * double(above.count()));
 }
 
 TEST(TableColor, PixelsThatASensorMissesWithinAThingAreNoBordersOfIt) {
@@ -116,16 +124,7 @@ TEST(TableColor, PixelsThatASensorMissesWithinAThingAreNoBordersOfIt) {
         points.col(c).setConstant(std::numeric_limits<float>::quiet_NaN());
       above.cells[std::size_t(c)] = board && points.col(c).allFinite();
     }
-  PinholeCamera camera;
-  camera.fx = camera.fy = 500.0;
-  TableModel table;
-  table.normal = -Eigen::Vector3d::UnitZ();
-  table.offset = 1.0;
-  table.sigma = 0.001;
-  const CloudPoints seen(points);
-  const SceneView view{seen, WIDTH, HEIGHT, colors, camera, table};
-  CellMask left = above;
-  TableColor(view, above).removeHalo(left);
+  const double left = withoutHalo(points, colors, above);
   // the corners are farther from the middle than a halo is wide
-  EXPECT_GT(double(left.count()), 0.96 * double(above.count()));
+  EXPECT_GT(left, 0.96 * double(above.count()));
 }
