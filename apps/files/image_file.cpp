@@ -121,12 +121,13 @@ cv::Mat readMask(const std::string& path) {
   constexpr double MOST_BETWEEN = 0.25;
   const std::string bytes = readFile(path);
   cv::Mat image = decodeImage(bytes, path, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  const double half_bright = image.depth() == CV_16U ? 32768.0 : 128.0;
   image.convertTo(image, CV_32F);
   double brightest = 0.0;
   cv::minMaxLoc(image, nullptr, &brightest);
   const Shades shades = shadesOf(image, brightest);
   // too dark for a picture, or coloured by number: several things
-  if (shades.kinds > 1 && (brightest < 128.0 || hasColors(bytes)))
+  if (shades.kinds > 1 && (brightest < half_bright || hasColors(bytes)))
     throw Failure("'" + path +
                   "' holds labels of several things; give a mask of one object, its "
                   "pixels white (or 1) and the others black.");

@@ -62,6 +62,8 @@ TEST(Mask, LabelsOfSeveralThingsAreRefusedWithTheCure) {
       folder.write("labels.pgm", pixels(std::string{'\0', '\x01', '\x02', '\x03'}));
   expectRefused(path, "one object");
   expectRefused(folder.write("labels.png", numbered(true)), "one object");
+  const std::string wide{'\0', '\0', '\1', '\0', '\2', '\0', '\3', '\0'};
+  expectRefused(folder.write("wide.pgm", "P5\n2 2\n65535\n" + wide), "one object");
 }
 
 TEST(Mask, OneThingsDarkNumberOrColorIsAMask) {
