@@ -4,9 +4,8 @@
 #include "command_line/value_checks.h"
 #include "files/cloud_io.h"
 #include "files/files.h"
+#include "model/model_input.h"
 #include "options/offset.h"
-#include "pcl_sq/file_io.h"
-#include "pcl_sq/scene_io.h"
 #include "scene/evaluation.h"
 #include "scene/mesh_reader.h"
 #include "scene/pose_file.h"
@@ -75,6 +74,10 @@ ReferenceShape loadShape(const Options& o) {
       readPose(o.pose, shape.rotation, shape.translation);
     if (!symmetryFromString(o.symmetry, &shape.symmetry))
       throw UsageError("unknown symmetry.");
+    if (const std::size_t open = openEdges(shape.mesh); open > 0)
+      note("the mesh is open: " + std::to_string(open) +
+           " of its edges belong to one triangle, so that its volume and the overlap "
+           "are no more than a guess; close its holes");
     return shape;
   }
   const SceneTruth truth = readTruth(o.truth);
@@ -155,33 +158,6 @@ void printTable(const Json& json) {
   line("D (Eq. 7, mm)", json["distortion_mm"].get<double>(), "");
 }
 
-/** \brief The model, or what is asked for of a scene. \throw Failure */
-ModelFile readModel(const Options& o) {
-  ModelFile file;
-  std::string text, why;
-  if (pcl_sq::readFile(o.model, text) && isScene(text)) {
-    SceneFile scene;
-    if (!loadScene(o.model, scene, &why))
-      throw Failure(why + ".");
-    if (o.object > scene.objects.size())
-      throw UsageError("--object " + std::to_string(o.object) + ": the scene has " +
-                       std::to_string(scene.objects.size()) + " only.");
-    if (o.object > 0)
-      return scene.objects[o.object - 1].file;
-    if (scene.objects.size() > 1 && (!o.truth.empty() || !o.mesh.empty()))
-      throw UsageError("the scene has " + std::to_string(scene.objects.size()) +
-                       " things, a mesh or truth is of one; give --object.");
-    file.model = scene.all();
-    return file;
-  }
-  if (o.object > 0)
-    throw UsageError("--object has no effect here: it goes with a scene of "
-                     "pcl_sq_scene.");
-  if (!loadModel(o.model, file, &why))
-    throw Failure(why + ".");
-  return file;
-}
-
 int work(const Options& o) {
   if (o.truth.empty() && o.mesh.empty() && o.cloud.empty())
     throw UsageError("give --truth, --mesh or --cloud to judge the model against.");
@@ -192,12 +168,17 @@ int work(const Options& o) {
   const bool print_json = o.format == "json" && !isStandardOutput(o.output);
   if (print_json)
     claimOutput("--format json", "-");
-  const ModelFile file = readModel(o);
-  if (file.model.empty())
-    throw Failure("'" + o.model + "' holds no superquadric; nothing to judge.");
+  const ModelInput input = readModelInput(o.model, o.object);
+  const std::size_t things = o.object > 0 ? 1 : input.scene.objects.size();
+  if (things > 1 && (!o.truth.empty() || !o.mesh.empty()))
+    throw UsageError("the scene has " + std::to_string(things) +
+                     " things, a mesh or truth is of one; give --object.");
+  const ModelFile& file = input.file;
   const MultiSuperquadric& model = file.model;
   StageLine line;
-  line.show("comparing");
+  const auto show = [&line](const char* what, double share) {
+    line.show("comparing " + std::string(what), share);
+  };
   Json json = {{"schema", "pcl_sq/evaluation"},
                {"version", 1},
                {"unit", "m"},
@@ -206,7 +187,8 @@ int work(const Options& o) {
   // without a cloud, D as the fit reported it: metres^1.5 to millimetres^1.5
   json["distortion_mm"] = file.distortion * std::pow(1e3, 1.5);
   if (!o.truth.empty() || !o.mesh.empty())
-    json["shape"] = toJson(evaluateShape(model, loadShape(o), o.samples, o.threads));
+    json["shape"] =
+        toJson(evaluateShape(model, loadShape(o), o.samples, o.threads, show));
   if (!o.cloud.empty()) {
     const LoadedCloud cloud = loadCloud(o.cloud, o.cloud_options);
     const Eigen::Matrix3Xd points = finitePoints(cloud);
@@ -214,7 +196,7 @@ int work(const Options& o) {
       throw Failure("'" + o.cloud + "' holds no finite point.");
     ModelFile near = file;
     near.model = moved(std::move(near.model), -cloud.offset);
-    const CloudFigures c = evaluateCloud(near.model, points, o.threads);
+    const CloudFigures c = evaluateCloud(near.model, points, o.threads, show);
     json["cloud"] = {{"points", c.points}, {"distance", toJson(c.distance)}};
     json["distortion_mm"] = c.distortion_mm;
   }

@@ -6,11 +6,9 @@
 #include "files/graspit_folder.h"
 #include "model/export_output.h"
 #include "model/grasp_output.h"
+#include "model/model_input.h"
 #include "options/model_options.h"
 #include "report/summary.h"
-
-#include "pcl_sq/file_io.h"
-#include "pcl_sq/scene_io.h"
 
 #include <algorithm>
 
@@ -29,9 +27,7 @@ const char* const EXAMPLES =
     "  pcl_sq_grasp cup.json --graspit ~/graspit\n"
     "  pcl_sq_grasp tabletop.json --object 1 -o grasps.json\n";
 
-struct Input {
-  ModelFile file;
-  SceneFile scene;                       ///< without objects where the input is none
+struct Input : app::ModelInput {
   std::optional<app::LoadedCloud> cloud; ///< the whole scene
 };
 
@@ -45,37 +41,20 @@ bool isModel(const std::string& path) {
   return first != std::string::npos && text[first] == '{';
 }
 
-/** \brief Whether a model file is one of a scene. */
-bool isSceneFile(const std::string& path) {
-  std::string text;
-  return readFile(path, text) && isScene(text);
-}
-
-/** \brief An object of a scene as a model on the scene's table. */
-ModelFile objectOf(const SceneFile& scene, std::size_t object) {
-  ModelFile file = scene.objects[object].file;
-  if (!file.table)
-    file.table = scene.table;
-  return file;
-}
-
 Input loadInput(const std::string& path,
                 const std::string& cloud_path,
+                std::size_t object,
                 const app::ModelOptions& model_options) {
   Input input;
   if (isModel(path)) {
-    std::string why;
-    const bool scene = isSceneFile(path);
-    if (scene && !loadScene(path, input.scene, &why))
-      throw app::Failure(why + ".");
-    if (scene && input.scene.objects.empty())
-      throw app::Failure("'" + path + "' holds no object; there is nothing to grasp.");
-    if (!scene && !loadModel(path, input.file, &why))
-      throw app::Failure(why + ".");
+    static_cast<app::ModelInput&>(input) = app::readModelInput(path, object);
     if (!cloud_path.empty())
       input.cloud = app::loadCloud(cloud_path, model_options.cloud);
     return input;
   }
+  if (object > 0)
+    throw app::UsageError("--object has no effect here: it goes with a scene of "
+                          "pcl_sq_scene.");
   app::StageLine line;
   line.show(app::wordsFor("load"));
   input.cloud = app::loadCloud(path, model_options.cloud);
@@ -99,14 +78,8 @@ int plan(const std::string& input_path,
   app::claimInput(cloud_path);
   app::checkGraspOptions(options);
   app::checkModelOptions(model_options);
-  Input input = loadInput(input_path, cloud_path, model_options);
+  Input input = loadInput(input_path, cloud_path, object, model_options);
   const std::size_t objects = input.scene.objects.size();
-  if (object > objects)
-    throw app::UsageError(
-        objects == 0
-            ? "--object has no effect here: it goes with a scene of pcl_sq_scene."
-            : "--object " + std::to_string(object) + ": the scene has " +
-                  std::to_string(objects) + " only.");
   GraspScene scene;
   double milliseconds = 0.0;
   GraspPlan plan;
@@ -117,7 +90,7 @@ int plan(const std::string& input_path,
   const std::size_t last = object > 0 ? object : std::max<std::size_t>(objects, 1);
   std::size_t best = first;
   for (std::size_t k = first; k < last; ++k) {
-    const ModelFile file = objects > 0 ? objectOf(input.scene, k) : input.file;
+    const ModelFile file = objects > 0 ? app::thingOnTable(input.scene, k) : input.file;
     GraspScene around =
         app::makeScene(options, file, input.cloud ? &*input.cloud : nullptr);
     if (input.cloud)

@@ -5,10 +5,10 @@
 #include "files/files.h"
 #include "model/cloud_picture.h"
 #include "model/export_output.h"
+#include "model/model_input.h"
 #include "options/frame_options.h"
 #include "options/offset.h"
 
-#include "pcl_sq/model_io.h"
 #include "pcl_sq/visualization/snapshot_renderer.h"
 
 #include <nlohmann/json.hpp>
@@ -21,17 +21,19 @@ using namespace pcl_sq;
 namespace {
 
 const char* const DESCRIPTION =
-    "Takes a picture of a model (JSON of pcl_sq_fit), with or without its point cloud. "
+    "Takes a picture of a model or scene (JSON), with or without its point cloud. "
     "Works on machines without a display.";
 const char* const EXAMPLES =
     "  pcl_sq_snapshot cup.json --cloud cup.pcd -o cup.png\n"
     "  pcl_sq_snapshot cup.json --view camera --size 640x480 -o cup.png\n"
     "  pcl_sq_snapshot cup.json --cloud cup.pcd --turntable 36 -o turn.png\n"
     "  pcl_sq_snapshot cup.json --cloud cup.pcd --html cup.html --export cup.sdf\n"
+    "  pcl_sq_snapshot scene.json --cloud scene.pcd -o scene.png\n"
     "  pcl_sq_snapshot --cloud robot.pcd --up z --view top -o robot.png\n";
 
 struct Arguments {
   std::string model, cloud, output, size = "1280x960", view = "iso";
+  std::size_t object = 0; ///< of a scene, from 1 on; 0: all
   int turntable = 0;
   app::CloudOptions cloud_options;
   app::FrameOptions frame;
@@ -47,8 +49,14 @@ void parseSize(const std::string& text, SnapshotOptions& options) {
 }
 
 void configure(CLI::App& cli, Arguments& a) {
-  cli.add_option("model", a.model, "Model file; may be left out if there is a cloud")
+  cli.add_option(
+         "model", a.model, "Model or scene file; may be left out if there is a cloud")
       ->type_name("MODEL.json");
+  cli.add_option("--object",
+                 a.object,
+                 "Number of the thing of a scene, from 1 on; 0: all of them")
+      ->check(app::wholeNumber(0, 65535))
+      ->capture_default_str();
   cli.add_option("--cloud", a.cloud, "Point cloud (PCD, PLY, OBJ, STL or text)")
       ->type_name("FILE");
   app::addCloudOptions(cli, a.cloud_options);
@@ -134,13 +142,20 @@ int takePictures(const Arguments& a) {
   std::optional<app::LoadedCloud> cloud;
   if (!a.cloud.empty())
     cloud = readCloud(a);
-  ModelFile file;
-  if (!a.model.empty()) {
-    std::string why;
-    if (!loadModel(a.model, file, &why))
-      throw app::Failure(why + ".");
-  }
-  app::writeExports(a.exported, file, cloud ? &*cloud : nullptr);
+  app::ModelInput input;
+  if (!a.model.empty())
+    input = app::readModelInput(a.model, a.object);
+  ModelFile& file = input.file;
+  if (a.object == 0 && !input.scene.objects.empty()) {
+    for (const std::string& path : a.exported.exports)
+      if (const std::string format = app::extensionOf(path);
+          format == ".urdf" || format == ".sdf")
+        throw app::UsageError("--export " + path +
+                              " is of one thing; give --object, or write a .scene or "
+                              ".glb.");
+    app::writeExports(a.exported, input.scene, cloud ? &*cloud : nullptr);
+  } else
+    app::writeExports(a.exported, file, cloud ? &*cloud : nullptr);
   if (a.output.empty())
     return app::DONE;
   if (!a.model.empty()) {

@@ -71,7 +71,7 @@ void claimOutput(const std::string& option,
       throw UsageError(other + " and " + option + " both name '" + path +
                        "'; give each a file of its own.");
   for (const std::string& input : inputs)
-    if (isSameFile(path, input))
+    if (input != "-" && isSameFile(path, input))
       throw UsageError(option + " would replace the input '" + input +
                        "'; name another file.");
   claimed.emplace_back(option, path);
@@ -99,8 +99,13 @@ void makeFolder(const std::string& path) {
 }
 
 void claimInput(const std::string& path) {
-  if (path != "-" && !path.empty())
-    inputs.push_back(path);
+  if (path.empty())
+    return;
+  const bool standard = path == "-" || path == "/dev/stdin";
+  if (standard && std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
+    throw UsageError("two inputs are standard input, which can be only one of them; "
+                     "name a file for the other.");
+  inputs.push_back(standard ? "-" : path);
 }
 
 } // namespace pcl_sq::app

@@ -45,7 +45,7 @@ void claimFolder(const std::string& path);
 void makeFolder(const std::string& path);
 
 /** \brief Tells claimOutput() of a file that is read: no output may replace it. To be
- * called before. */
+ * called before. \throw UsageError if it is the second one on standard input */
 void claimInput(const std::string& path);
 
 } // namespace pcl_sq::app

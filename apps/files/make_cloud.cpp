@@ -86,13 +86,14 @@ std::string coarseFloats(const std::vector<Eigen::Vector3d>& points) {
 /** \brief Scales to metres: a unit that the file names is the one it has. */
 void toMetres(Shape& shape, CloudOptions options, LoadedCloud& loaded) {
   if (!shape.unit.empty() && shape.unit != options.unit) {
-    // metres are what programs take for granted, so they contradict nothing
-    if (options.unit != CloudOptions().unit)
+    if (!options.unit.empty())
       throw Failure("its header says that the unit is " + shape.unit + ", but --unit " +
                     options.unit +
                     " is given; leave --unit out, or correct the header");
     options.unit = shape.unit;
-    loaded.notes.push_back("the unit is " + shape.unit + ", as the file's header says");
+    if (shape.unit != "m")
+      loaded.notes.push_back("the unit is " + shape.unit +
+                             ", as the file's header says");
   }
   const double scale = options.scale();
   if (scale != 1.0)

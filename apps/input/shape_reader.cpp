@@ -43,10 +43,32 @@ void refuseOtherFormats(std::string_view bytes) {
       {"%PDF", "a PDF; give a point cloud"},
       {"#ROSBAG", "a ROS bag; convert it with pcl_ros bag_to_pcd"},
       {"glTF", "a glTF file; convert it to PLY, OBJ or STL"},
+      {"# vtk DataFile", "a VTK file; convert it to PLY, OBJ or STL"},
+      {"Kaydara FBX", "an FBX file; convert it to PLY, OBJ or STL"},
+      {"ISO-10303", "a STEP file; convert it to PLY, OBJ or STL"},
+      {"#VRML", "a VRML file; convert it to PLY, OBJ or STL"},
+      {"<", "an XML file, such as .vtp, .dae or .x3d; convert it to PLY, OBJ or STL"},
+      {"%YAML", "a YAML file; give a point cloud"},
+      {"P5", "a PGM image; pcl_sq_stereo reads images"},
+      {"P6", "a PPM image; pcl_sq_stereo reads images"},
+      {"II*", "a TIFF image; pcl_sq_stereo reads images"},
+      {"\xd4\xc3\xb2\xa1", "a network capture; save one cloud of it as PCD"},
+      {"\x0a\x0d\x0d\x0a", "a network capture; save one cloud of it as PCD"},
       {"OFF", "an OFF file; convert it to PLY, OBJ or STL"}};
   for (const auto& format : formats)
     if (startsWith(bytes, format.start))
       throw Failure(std::string("it is ") + format.name);
+}
+
+/** \brief JSON is often a model where its cloud is meant. */
+void refuseJson(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || bytes[first] != '{')
+    return;
+  if (bytes.find("\"pcl_sq/") != std::string_view::npos)
+    throw Failure("it is a result of pcl_sq, a model, scene or grasps, without points; "
+                  "give the cloud that it was made of");
+  throw Failure("it is JSON, such as glTF; convert it to PCD, PLY, OBJ, STL or text");
 }
 
 /** \brief First word of the first line that is neither empty nor a comment. */
@@ -94,6 +116,7 @@ Shape readShape(std::string_view bytes, const std::string& extension) {
   if (starts({"v", "vn", "vt", "vp", "f", "g", "o", "s", "mtllib", "usemtl"}))
     return readObj(bytes);
   refuseOtherFormats(bytes);
+  refuseJson(bytes);
   if (extension == ".ply")
     return readPly(bytes);
   if (extension == ".pcd")

@@ -12,9 +12,9 @@ double CloudOptions::scale() const {
 void addUnitOption(CLI::App& cli, CloudOptions& options) {
   cli.add_option("--unit",
                  options.unit,
-                 "Unit of the coordinates in the input; results are always in metres")
-      ->check(oneOf({"mm", "cm", "m", "in"}))
-      ->capture_default_str();
+                 "Unit of the coordinates in the input, else what the file says, or m; "
+                 "results are always in metres")
+      ->check(oneOf({"mm", "cm", "m", "in"}));
 }
 
 void addCloudOptions(CLI::App& cli, CloudOptions& options) {

@@ -10,7 +10,8 @@ namespace pcl_sq::app {
 
 /** \brief What every program that reads clouds or meshes asks the user. */
 struct CloudOptions {
-  std::string unit = "m"; ///< of the numbers in the file: mm, cm, m or in
+  /// of the numbers in the file: mm, cm, m or in; empty: what the file says, else m
+  std::string unit;
   /// what tells another unit of the input
   std::string unit_option = "--unit mm, cm, m or in";
   std::size_t samples = 5000; ///< points on the surface of a mesh, 100 to 10,000,000

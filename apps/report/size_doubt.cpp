@@ -20,7 +20,7 @@ sizeDoubt(const std::string& what, double size, const CloudOptions& options) {
       "%s would be %.3g m large if the file's unit is %s; give %s if it is another one",
       what.c_str(),
       size,
-      options.unit.c_str(),
+      options.unit.empty() ? "m" : options.unit.c_str(),
       options.unit_option.c_str());
   return text;
 }

@@ -13,17 +13,13 @@ namespace {
 
 constexpr double DEGREES = 180.0 / 3.14159265358979323846;
 
-/** \brief Distances of points, in parallel; summed in order, so repeatable. */
-template <typename Distance>
-DistanceFigures
-measure(const std::vector<Eigen::Vector3d>& points, int threads, Distance&& distance) {
-  std::vector<double> d(points.size());
-#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-  for (std::size_t i = 0; i < points.size(); ++i)
-    d[i] = std::abs(distance(points[i]));
+/** \brief Figures of distances; summed in order, so repeatable. */
+DistanceFigures figuresOf(std::vector<double> d) {
   DistanceFigures figures;
   if (d.empty())
     return figures;
+  for (double& value : d)
+    value = std::abs(value);
   const auto n = static_cast<double>(d.size());
   figures.mean = std::accumulate(d.begin(), d.end(), 0.0) / n;
   figures.rms = std::sqrt(std::inner_product(d.begin(), d.end(), d.begin(), 0.0) / n);
@@ -32,6 +28,25 @@ measure(const std::vector<Eigen::Vector3d>& points, int threads, Distance&& dist
   figures.median = *middle;
   figures.max = *std::max_element(middle, d.end());
   return figures;
+}
+
+/** \brief Distances of points from the model's parts; tells how far it is. */
+DistanceFigures distancesToModel(const MultiSuperquadric& model,
+                                 const Eigen::Matrix3Xd& points,
+                                 unsigned int threads,
+                                 const WorkDone& done) {
+  constexpr Eigen::Index AT_A_TIME = 4096;
+  std::vector<double> distances;
+  distances.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index first = 0; first < points.cols(); first += AT_A_TIME) {
+    const Eigen::VectorXd d = model.euclideanDistances(
+        points.middleCols(first, std::min(AT_A_TIME, points.cols() - first)), threads);
+    distances.insert(distances.end(), d.begin(), d.end());
+    if (done)
+      done("distances",
+           static_cast<double>(distances.size()) / static_cast<double>(points.cols()));
+  }
+  return figuresOf(std::move(distances));
 }
 
 double areaOf(const TriangleMesh& mesh, std::vector<double>* running = nullptr) {
@@ -46,11 +61,10 @@ double areaOf(const TriangleMesh& mesh, std::vector<double>* running = nullptr) 
 }
 
 /** \brief Points uniform in area. */
-std::vector<Eigen::Vector3d> sampleMesh(const TriangleMesh& mesh, std::size_t count) {
+Eigen::Matrix3Xd sampleMesh(const TriangleMesh& mesh, std::size_t count) {
   std::vector<double> running;
   const double area = areaOf(mesh, &running);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(count);
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const double at = area * uniformOf(3 * i);
     const auto found = std::upper_bound(running.begin(), running.end(), at);
@@ -59,8 +73,9 @@ std::vector<Eigen::Vector3d> sampleMesh(const TriangleMesh& mesh, std::size_t co
                                  static_cast<std::ptrdiff_t>(running.size()) - 1);
     const auto& t = mesh.triangles[static_cast<std::size_t>(index)];
     const double s = std::sqrt(uniformOf(3 * i + 1)), r = uniformOf(3 * i + 2);
-    points.push_back((1.0 - s) * mesh.vertices[t[0]] +
-                     s * (1.0 - r) * mesh.vertices[t[1]] + s * r * mesh.vertices[t[2]]);
+    points.col(static_cast<Eigen::Index>(i)) = (1.0 - s) * mesh.vertices[t[0]] +
+                                               s * (1.0 - r) * mesh.vertices[t[1]] +
+                                               s * r * mesh.vertices[t[2]];
   }
   return points;
 }
@@ -185,7 +200,8 @@ double axisError(const Eigen::Matrix3d& model,
 ShapeFigures evaluateShape(const MultiSuperquadric& model,
                            const ReferenceShape& shape,
                            std::size_t samples,
-                           unsigned int threads) {
+                           unsigned int threads,
+                           const WorkDone& done) {
   ShapeFigures figures;
   const MeshBvh mesh(shape.mesh);
   figures.true_size = mesh.box().sizes();
@@ -205,29 +221,30 @@ ShapeFigures evaluateShape(const MultiSuperquadric& model,
       });
   figures.axis_error_deg = axisError(largest->rotation, shape.rotation, shape.symmetry);
   const int count = threadCount(threads);
+  if (done)
+    done("volumes", 0.0);
   measureVolumes(model, mesh, shape, samples, count, figures);
-  figures.model_to_truth = measure(sampleUnion(model, samples), count, [&](auto& p) {
-    return mesh.distance(shape.rotation.transpose() * (p - shape.translation));
-  });
-  figures.truth_to_model =
-      measure(sampleMesh(shape.mesh, samples), count, [&](auto& p) {
-        return model.euclideanDistance(shape.rotation * p + shape.translation);
-      });
+  const std::vector<Eigen::Vector3d> on_model = sampleUnion(model, samples);
+  std::vector<double> to_truth(on_model.size());
+#pragma omp parallel for schedule(dynamic, 256) num_threads(count)
+  for (std::size_t i = 0; i < on_model.size(); ++i)
+    to_truth[i] =
+        mesh.distance(shape.rotation.transpose() * (on_model[i] - shape.translation));
+  figures.model_to_truth = figuresOf(std::move(to_truth));
+  const Eigen::Matrix3Xd on_truth =
+      (shape.rotation * sampleMesh(shape.mesh, samples)).colwise() + shape.translation;
+  figures.truth_to_model = distancesToModel(model, on_truth, threads, done);
   return figures;
 }
 
 CloudFigures evaluateCloud(const MultiSuperquadric& model,
                            const Eigen::Matrix3Xd& points,
-                           unsigned int threads) {
+                           unsigned int threads,
+                           const WorkDone& done) {
   CloudFigures figures;
   figures.points = static_cast<std::size_t>(points.cols());
   figures.distortion_mm = model.distortion(points, 1e-3);
-  std::vector<Eigen::Vector3d> list;
-  list.reserve(figures.points);
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    list.push_back(points.col(i));
-  figures.distance = measure(
-      list, threadCount(threads), [&](auto& p) { return model.euclideanDistance(p); });
+  figures.distance = distancesToModel(model, points, threads, done);
   return figures;
 }
 

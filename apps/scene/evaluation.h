@@ -6,6 +6,7 @@
 #include "scene/objects.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace pcl_sq::app {
 
@@ -37,12 +38,16 @@ struct ShapeFigures {
   double chamfer() const { return 0.5 * (model_to_truth.mean + truth_to_model.mean); }
 };
 
+/** \brief Told of long work: which, and the share of it that is done. */
+using WorkDone = std::function<void(const char* work, double share)>;
+
 /** \brief Figures of a model against a shape; repeatable.
  * \param[in] samples points for each of volume and surfaces */
 ShapeFigures evaluateShape(const MultiSuperquadric& model,
                            const ReferenceShape& shape,
                            std::size_t samples,
-                           unsigned int threads = 0);
+                           unsigned int threads = 0,
+                           const WorkDone& done = {});
 
 /** \brief A model against measured points. */
 struct CloudFigures {
@@ -52,7 +57,8 @@ struct CloudFigures {
 };
 CloudFigures evaluateCloud(const MultiSuperquadric& model,
                            const Eigen::Matrix3Xd& points,
-                           unsigned int threads = 0);
+                           unsigned int threads = 0,
+                           const WorkDone& done = {});
 
 /** \brief Smallest angle between the axes of a model and those of a shape [deg]. */
 double axisError(const Eigen::Matrix3d& model,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace pcl_sq::app {
 namespace {
@@ -73,6 +74,21 @@ TriangleMesh readMesh(const std::string& path, const CloudOptions& options) {
     throw Failure("cannot read '" + printable(path) + "': " + failure.what() +
                   "; give another mesh file.");
   }
+}
+
+std::size_t openEdges(const TriangleMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.push_back(std::minmax({t[k], t[(k + 1) % 3]}));
+  std::sort(edges.begin(), edges.end());
+  std::size_t open = 0;
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::upper_bound(edge, edges.end(), *edge);
+    open += static_cast<std::size_t>((next - edge) % 2);
+    edge = next;
+  }
+  return open;
 }
 
 void writePly(const std::string& path, const TriangleMesh& mesh) {

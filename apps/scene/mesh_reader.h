@@ -19,6 +19,9 @@ TriangleMesh readMesh(const std::string& path, const CloudOptions& options = {})
 /** \brief The same from what was read. \throw Failure, without the file's name in it */
 TriangleMesh makeMesh(Shape shape);
 
+/** \brief Edges that an odd number of triangles has: none where a mesh is closed. */
+std::size_t openEdges(const TriangleMesh& mesh);
+
 /** \brief Writes a binary PLY in double precision. */
 void writePly(const std::string& path, const TriangleMesh& mesh);
 

@@ -28,6 +28,11 @@ struct PCL_SQ_EXPORTS MultiSuperquadric {
   /** \brief Signed Euclidean distance to the parts, min_k d_k [m]: exact outside of the
    * union, a bound inside where parts overlap; infinity for an empty union. */
   double euclideanDistance(const Eigen::Vector3d& point) const;
+  /** \brief euclideanDistance() of many points: parts whose boxes are farther than
+   * another part's surface cost nothing. \param[in] points 3 x N in the cloud's frame
+   * [m] \param[in] threads 0 = all cores \return N distances [m] */
+  Eigen::VectorXd euclideanDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                     unsigned int threads = 1) const;
   /** \brief Support of the convex hull, max_k (n.center_k + h_k(n)) [m]: the extent of
    * the union along n, measured from the origin of the cloud's frame. */
   double support(const Eigen::Vector3d& direction) const;

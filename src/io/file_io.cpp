@@ -51,6 +51,27 @@ bool succeeds(const Action& action, std::string* why) {
   }
 }
 
+/** \brief What an error of opening or reading means to who named the file. */
+std::string readingFailed(int error) {
+  switch (error) {
+  case ENOENT:
+    return "the file does not exist";
+  case EACCES:
+  case EPERM:
+    return "you have no right to read it; change its permissions or copy it";
+  case ENOTDIR:
+    return "a part of its path is a file, no folder; correct the path";
+  case ELOOP:
+    return "its links lead in a circle; name the file itself";
+  case ENAMETOOLONG:
+    return "the name is too long";
+  case EIO:
+    return "the disk or the connection fails; copy the file from elsewhere";
+  default:
+    return std::generic_category().message(error);
+  }
+}
+
 std::string bytesOf(const std::string& path, int descriptor) {
   std::string bytes;
   char piece[1 << 16];
@@ -63,8 +84,7 @@ std::string bytesOf(const std::string& path, int descriptor) {
     else if (errno == EISDIR)
       throw FileFailure{"'" + path + "' is a folder; give a file"};
     else if (errno != EINTR)
-      throw FileFailure{"cannot read '" + path +
-                        "': " + std::generic_category().message(errno)};
+      throw FileFailure{"cannot read '" + path + "': " + readingFailed(errno)};
   }
 }
 
@@ -80,9 +100,7 @@ void refuseEndless(const std::string& path, int descriptor) {
 std::string readNamed(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0)
-    throw FileFailure{"cannot read '" + path + "': " +
-                      (errno == ENOENT ? "the file does not exist"
-                                       : std::generic_category().message(errno))};
+    throw FileFailure{"cannot read '" + path + "': " + readingFailed(errno)};
   try {
     refuseEndless(path, descriptor);
     std::string bytes = bytesOf(path, descriptor);

@@ -16,6 +16,10 @@ constexpr int MODEL_VERSION = 1;
 constexpr int TAPERED_VERSION = 2;
 constexpr int OPEN_VERSION = 3; ///< rims, walls, bends and tables
 
+/** \brief What a model is for is few bodies; a union's surface, its mass and its grasps
+ * compare every pair of them. */
+constexpr std::size_t MOST_PARTS = 1000;
+
 Json partToJson(const Superquadric& s, const PartStatistics& statistics) {
   Json rotation = Json::array();
   for (int row = 0; row < 3; ++row)
@@ -125,6 +129,9 @@ void detail::readModel(const Json& json, ModelFile& file) {
   const Json& parts = member(json, "superquadrics");
   if (!parts.is_array())
     throw Refusal{"\"superquadrics\" must be a list"};
+  if (parts.size() > MOST_PARTS)
+    throw Refusal{std::to_string(parts.size()) + " superquadrics are more than the " +
+                  std::to_string(MOST_PARTS) + " that a model may have"};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     file.model.parts.push_back(partFromJson(parts[i], i, version));
     file.statistics.push_back({optionalCount(parts[i], "points"),

@@ -94,6 +94,10 @@ void failToWrite(const std::string& path, int error) {
     refuse(path, "you have no right to write there; name another place");
   case ENAMETOOLONG:
     refuse(path, "the name is too long");
+  case ENOTDIR:
+    refuse(path, "a part of its path is a file, no folder; correct the path");
+  case ELOOP:
+    refuse(path, "its links lead in a circle; name another place");
   default:
     refuse(path, std::generic_category().message(error));
   }

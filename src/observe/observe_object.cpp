@@ -192,15 +192,10 @@ bool detail::findImage(const CloudPoints& points,
   return true;
 }
 
-namespace {
-
-/** \brief Tells of a viewpoint that is not where an image of points was taken from, by
- * a tenth of the distance to its middle or more: nearer, it is an estimate of the same.
- */
-void noteOtherViewpoint(const CloudPoints& points,
-                        const PinholeCamera& camera,
-                        const ViewOptions& view,
-                        std::vector<std::string>& notes) {
+void detail::noteOtherViewpoint(const CloudPoints& points,
+                                const PinholeCamera& camera,
+                                const ViewOptions& view,
+                                std::vector<std::string>& notes) {
   if (!view.viewpoint)
     return;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -220,8 +215,6 @@ void noteOtherViewpoint(const CloudPoints& points,
       << ") m, which is not the viewpoint that was given; that of the image counts";
   notes.push_back(sentence.str());
 }
-
-} // namespace
 
 bool observeObject(const CloudPoints& points,
                    int width,

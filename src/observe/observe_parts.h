@@ -14,6 +14,14 @@ namespace pcl_sq::detail {
                              const ViewOptions& view,
                              PinholeCamera& camera);
 
+/** \brief Tells of a viewpoint that is not where an image of points was taken from, by
+ * a tenth of the distance to its middle or more: nearer, it is an estimate of the same.
+ */
+void noteOtherViewpoint(const CloudPoints& points,
+                        const PinholeCamera& camera,
+                        const ViewOptions& view,
+                        std::vector<std::string>& notes);
+
 [[nodiscard]] bool observeImage(Observation& o, std::string& why);
 [[nodiscard]] bool observeBare(Observation& o, std::string& why);
 

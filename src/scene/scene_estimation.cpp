@@ -104,6 +104,7 @@ bool SceneEstimator::look() {
   if (!findImage(points_, input_.width, input_.height, view_, camera_))
     return fail("the cloud is no image of a camera, although it has rows; give the "
                 "camera's intrinsics if it is one");
+  noteOtherViewpoint(points_, camera_, view_, scene_.notes);
   view_.camera = camera_;
   return true;
 }

@@ -99,7 +99,8 @@ StereoCalibration StereoCalibration::fromRaw(const RawStereoCameras& cameras) {
     detail::raiseCalibration(
         "load",
         "the baseline of " + std::to_string(length) +
-            " m is not plausible; give the file's unit of length (--calib-unit).");
+            " m is not plausible; correct the file's numbers, or give its unit of "
+            "length (--calib-unit).");
   const double* t = cameras.T.ptr<double>();
   if (std::abs(t[1]) > std::abs(t[0]))
     detail::raiseCalibration(

@@ -3,8 +3,12 @@
 
 #include "union/surface_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <omp.h>
+#include <utility>
+#include <vector>
 
 namespace pcl_sq {
 
@@ -37,6 +41,35 @@ double MultiSuperquadric::euclideanDistance(const Eigen::Vector3d& point) const 
   for (const Superquadric& part : parts)
     smallest = std::min(smallest, part.euclideanDistance(point));
   return smallest;
+}
+
+Eigen::VectorXd
+MultiSuperquadric::euclideanDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                      unsigned int threads) const {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Superquadric& part : parts)
+    boxes.push_back(part.boundingBox());
+  Eigen::VectorXd distances(points.cols());
+  const int count = threads == 0 ? omp_get_max_threads() : static_cast<int>(threads);
+#pragma omp parallel num_threads(count)
+  {
+    std::vector<std::pair<double, std::size_t>> nearest_first(parts.size());
+#pragma omp for schedule(dynamic, 64)
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      const Eigen::Vector3d point = points.col(i);
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        nearest_first[k] = {boxes[k].exteriorDistance(point), k};
+      std::sort(nearest_first.begin(), nearest_first.end());
+      double smallest = INFINITE;
+      for (const auto& [at_least, k] : nearest_first) {
+        if (at_least > std::max(smallest, 0.0)) // a box around the point bounds nothing
+          break;
+        smallest = std::min(smallest, parts[k].euclideanDistance(point));
+      }
+      distances[i] = smallest;
+    }
+  }
+  return distances;
 }
 
 double MultiSuperquadric::support(const Eigen::Vector3d& direction) const {

@@ -70,11 +70,12 @@ TEST(GraspApp, AGripperSmallerThanTheObjectFailsWithTheNearestMiss) {
 TEST(GraspApp, BadInputIsOneSentenceAndTheRightCode) {
   const Folder folder;
   const std::string model = folder.write("can.json", canJson(0.03));
-  expectRefusal({folder.write("empty.json", canJson(0.03, true))}, 1, "part");
+  expectRefusal({folder.write("empty.json", canJson(0.03, true))}, 1, "no superquadric");
   expectRefusal({folder.write("text.json", "hello")}, 1, "text.json");
   expectRefusal({folder / "absent.json"}, 1, "absent.json");
   expectRefusal({model, "--friction", "-0.5"}, 2, "friction");
   expectRefusal({model, "--friction", "nan"}, 2, "friction");
+  expectRefusal({model, "--up", "z"}, 2, "--table");
   expectRefusal({model, "--count", "0"}, 2, "count");
   expectRefusal({model, "--gripper", "tentacle"}, 2, "franka_hand");
   expectRefusal({model, "--table", "0,0,0,1"}, 2, "--table");

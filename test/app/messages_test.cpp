@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
 using namespace pcl_sq;
 using namespace pcl_sq::test;
 
@@ -115,6 +117,19 @@ TEST(Messages, ControlCharactersOfNamesDoNotReachTheTerminal) {
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.err.find('\x1b'), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find('\x07'), std::string::npos) << run.err;
+}
+
+TEST(Messages, TwoInputsAreNotBothStandardInput) {
+  expectRefusal("pcl_sq_evaluate", {"-", "--cloud", "-"}, 2, "standard input");
+}
+
+TEST(Messages, PathsThatCannotBeOpenedAreToldInWords) {
+  const Folder folder;
+  const std::string cloud = folder.write("a.xyz", "0 0 0\n");
+  expectRefusal("pcl_sq_fit", {cloud + "/b.xyz"}, 1, "no folder");
+  expectRefusal("pcl_sq_fit", {folder / std::string(300, 'a')}, 1, "too long");
+  ASSERT_EQ(symlink("loop.xyz", (folder / "loop.xyz").c_str()), 0);
+  expectRefusal("pcl_sq_fit", {folder / "loop.xyz"}, 1, "circle");
 }
 
 TEST(Messages, ThereIsNoProgressWhereThereIsNoTerminal) {

@@ -130,6 +130,31 @@ TEST(SceneFiles, AThingIsJudgedByItselfAndAllByACloud) {
   EXPECT_GT(rms(one), 0.1) << one.dump(2);
 }
 
+TEST(SceneFiles, APictureAndAPageShowTheThingsThatAreAskedFor) {
+  const Folder folder;
+  const std::string scene = writeScene(folder, {-0.2, 0.2});
+  const auto written = [&](const std::vector<std::string>& options) {
+    const std::string picture = folder / "out.png", page = folder / "out.html";
+    std::vector<std::string> arguments = {
+        scene, "--size", "200x150", "-o", picture, "--html", page};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram("pcl_sq_snapshot", arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return std::make_pair(slurp(picture), slurp(page));
+  };
+  const auto all = written({}), one = written({"--object", "1"});
+  EXPECT_GT(all.first.size(), 1000u);
+  EXPECT_NE(all.first, one.first);
+  EXPECT_NE(all.second, one.second);
+  expectRefusal("pcl_sq_snapshot",
+                {scene, "--export", folder / "both.urdf"},
+                2,
+                ".scene"); // a robot's object is one
+  const ProgramRun urdf = runProgram(
+      "pcl_sq_snapshot", {scene, "--object", "1", "--export", folder / "one.urdf"});
+  EXPECT_EQ(urdf.code, 0) << urdf.err;
+}
+
 TEST(SceneFiles, NumbersThatAreNoThingAreRefusedInASentence) {
   const Folder folder;
   const std::string scene = writeScene(folder, {-0.2, 0.2});

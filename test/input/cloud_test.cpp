@@ -68,6 +68,8 @@ TEST(Cloud, TheFilesOwnUnitIsUsedAndNotContradicted) {
   EXPECT_TRUE(tells(allNotes(loaded), {"the unit is mm, as the file's header says"}));
   options.unit = "mm";
   EXPECT_TRUE(app::makeCloud(shape, options).notes.empty());
+  options.unit = "m"; // asked for, not taken for granted
+  EXPECT_THROW((void)app::makeCloud(shape, options), app::Failure);
   options.unit = "in";
   try {
     (void)app::makeCloud(shape, options);

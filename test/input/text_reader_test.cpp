@@ -199,6 +199,11 @@ TEST(TextReader, NamesTheLineThatIsWrong) {
                             ".txt"),
                     {"UTF-16"}));
   EXPECT_TRUE(tells(refusal("LASF\1\2", ".las"), {"LAS"}));
+  EXPECT_TRUE(tells(refusal("# vtk DataFile Version 3.0\n", ".vtk"), {"VTK", "PLY"}));
+  EXPECT_TRUE(tells(refusal("<?xml version=\"1.0\"?>\n", ".vtp"), {"XML", "PLY"}));
+  EXPECT_TRUE(tells(refusal("{\"asset\": {}}", ".gltf"), {"JSON", "PLY"}));
+  EXPECT_TRUE(tells(refusal("\n{\"schema\": \"pcl_sq/model\"}", ".json"),
+                    {"result of pcl_sq", "give the cloud"}));
   EXPECT_TRUE(tells(refusal("\x93NUMPY\1", ".npy"), {"NumPy", "pcl_sq.estimate"}));
   EXPECT_TRUE(tells(refusal("\x89MCAP0\r\n", ".mcap"), {"ROS 2 bag"}));
   EXPECT_TRUE(tells(refusal("", ".txt"), {"empty"}));

@@ -198,6 +198,13 @@ TEST(MeshReader, ReadsBackWhatWasWritten) {
     ASSERT_EQ(back.vertices[i], cup.vertices[i]);
 }
 
+TEST(MeshReader, TellsOfTheEdgesOfHoles) {
+  TriangleMesh mesh = app::makeObject("cup").mesh;
+  EXPECT_EQ(app::openEdges(mesh), 0u);
+  mesh.triangles.pop_back();
+  EXPECT_EQ(app::openEdges(mesh), 3u);
+}
+
 TEST(MeshReader, RefusesWhatIsNoMesh) {
   const Folder folder;
   for (const auto& [name, text] :

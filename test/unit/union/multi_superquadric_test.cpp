@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace pcl_sq;
 using pcl_sq::test::Random;
 
@@ -48,6 +50,26 @@ TEST(MultiSuperquadric, PointIsInsideIfItIsInsideAnyPart) {
     EXPECT_EQ(m.contains(p), any);
     EXPECT_EQ(m.euclideanDistance(p) <= 0.0, any);
   }
+}
+
+TEST(MultiSuperquadric, DistancesOfManyPointsAreThoseOfEach) {
+  Random random(36);
+  MultiSuperquadric m = randomUnion(random, 6);
+  m.parts[0].kx = 0.4;
+  m.parts[1].rim = 0.5;
+  m.parts[1].wall = 0.05 * m.parts[1].semi_axes.minCoeff();
+  m.parts[2].bend = 0.5 / m.parts[2].semi_axes.z();
+  m.parts[3].center.x() += 5.0; // far from the others
+  Eigen::Matrix3Xd points(3, 300);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = random.pointNear(m.parts[i % 6]);
+  for (const unsigned int threads : {1U, 3U, 0U}) {
+    const Eigen::VectorXd distances = m.euclideanDistances(points, threads);
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      EXPECT_NEAR(distances[i], m.euclideanDistance(points.col(i)), 1e-9);
+  }
+  EXPECT_EQ(MultiSuperquadric().euclideanDistances(points).minCoeff(),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(MultiSuperquadric, SupportAndBoxEncloseEverySurfacePoint) {
@@ -130,6 +152,17 @@ TEST(ModelIo, TapersAreKeptAndRaiseTheVersion) {
   file.model.parts[0].kx = 1.5;
   EXPECT_FALSE(fromJson(toJson(file), back, &why));
   EXPECT_NE(why.find("taper"), std::string::npos) << why;
+}
+
+TEST(ModelIo, AModelHasAThousandPartsAtMost) {
+  ModelFile file, back;
+  std::string why;
+  file.model.parts.resize(1000);
+  EXPECT_TRUE(fromJson(toJson(file, -1), back, &why)) << why;
+  file.model.parts.resize(1001);
+  EXPECT_FALSE(fromJson(toJson(file, -1), back, &why));
+  EXPECT_NE(why.find("1001 superquadrics"), std::string::npos) << why;
+  EXPECT_TRUE(back.model.empty());
 }
 
 TEST(ModelIo, RefusesWhatIsNoModelAndSaysWhy) {
