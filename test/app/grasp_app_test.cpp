@@ -70,7 +70,8 @@ TEST(GraspApp, AGripperSmallerThanTheObjectFailsWithTheNearestMiss) {
 TEST(GraspApp, BadInputIsOneSentenceAndTheRightCode) {
   const Folder folder;
   const std::string model = folder.write("can.json", canJson(0.03));
-  expectRefusal({folder.write("empty.json", canJson(0.03, true))}, 1, "no superquadric");
+  expectRefusal(
+      {folder.write("empty.json", canJson(0.03, true))}, 1, "no superquadric");
   expectRefusal({folder.write("text.json", "hello")}, 1, "text.json");
   expectRefusal({folder / "absent.json"}, 1, "absent.json");
   expectRefusal({model, "--friction", "-0.5"}, 2, "friction");
