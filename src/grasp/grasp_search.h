@@ -27,8 +27,6 @@ public:
   /** \brief Fills the plan for two jaws or three fingers. */
   void run(GraspPlan& plan);
 
-  const Eigen::Vector3d& centreOfGravity() const { return centre_; }
-
 private:
   struct Candidate {
     double bound;        ///< no grasp from it scores more

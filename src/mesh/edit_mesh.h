@@ -14,7 +14,6 @@ public:
 
   explicit EditMesh(const PartMesh& mesh);
 
-  std::size_t vertexCount() const { return vertices_.size(); }
   std::size_t triangleCount() const { return triangle_count_; }
   const Eigen::Vector3d& position(Index v) const { return vertices_[v]; }
   /** \brief Triangles around a vertex, none for one that is gone. */
