@@ -40,7 +40,8 @@ struct PCL_SQ_EXPORTS ModelFile {
 };
 
 /** \brief The model as UTF-8 JSON, numbers with 17 significant digits.
- * \param[in] indent spaces per level; negative for one line */
+ * \param[in] indent spaces per level; negative for one line
+ * \throw pcl_sq::Exception if options_json is no JSON or extra_json no JSON object */
 PCL_SQ_EXPORTS std::string toJson(const ModelFile& file, int indent = 2);
 
 /** \brief Reads what toJson() wrote.
@@ -54,8 +55,9 @@ fromJson(const std::string& text, ModelFile& file, std::string* why = nullptr);
 
 /** \brief Writes a model file as toJson() gives it, whole or not at all; see
  * writeFile(). \param[in] path "-" is standard output \param[out] why the reason of a
- * failure (a full disk, no such folder, no right), a sentence without its full stop
- * (optional) \return whether the file was written */
+ * failure (a full disk, no such folder, no right; a model that fromJson() would
+ * refuse), a sentence without its full stop (optional) \return whether the file was
+ * written */
 [[nodiscard]] PCL_SQ_EXPORTS bool
 saveModel(const std::string& path, const ModelFile& file, std::string* why = nullptr);
 

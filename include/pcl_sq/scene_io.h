@@ -37,7 +37,8 @@ struct PCL_SQ_EXPORTS SceneFile {
 
 /** \brief The scene as UTF-8 JSON. Each of its objects is a whole model file by itself,
  * with the members roi, pixels, visible, confidence and notes.
- * \param[in] indent spaces per level; negative for one line */
+ * \param[in] indent spaces per level; negative for one line
+ * \throw pcl_sq::Exception if options_json is no JSON or extra_json no JSON object */
 PCL_SQ_EXPORTS std::string toJson(const SceneFile& file, int indent = 2);
 
 /** \brief Whether a JSON text says that it is a scene: its schema, no more. */

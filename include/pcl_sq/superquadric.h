@@ -220,9 +220,10 @@ struct PCL_SQ_EXPORTS Superquadric {
   SuperquadricCoefficients toCoefficients() const;
   /** \brief Inverse of toCoefficients(); \a coefficients must hold eleven numbers. */
   static Superquadric fromCoefficients(const SuperquadricCoefficients& coefficients);
-  /** \brief From the single-precision vectors of PCL's sample consensus models. */
+  /** \brief From the single-precision vectors of PCL's sample consensus models; of
+   * fewer than eleven, as of a model that was not found, what isValid() refuses. */
   static Superquadric fromCoefficients(const Eigen::VectorXf& coefficients);
-  /** \brief From pcl::ModelCoefficients::values. */
+  /** \brief From pcl::ModelCoefficients::values, as above. */
   static Superquadric fromCoefficients(const std::vector<float>& coefficients);
 
 private:

@@ -15,8 +15,9 @@ import numpy.typing as npt
 
 from ._core import MultiSuperquadric, Superquadric, __version__
 from . import _core
-from ._images import (DepthSequence, StereoSequence, array_of, estimate_depth,
-                      estimate_scene_depth, estimate_scene_stereo, estimate_stereo)
+from ._arrays import array_of, points_of
+from ._images import (DepthSequence, StereoSequence, estimate_depth, estimate_scene_depth,
+                      estimate_scene_stereo, estimate_stereo)
 from ._model import Model, PathLike
 from ._options import in_python_words, words_of
 from ._scene import Scene, Thing
@@ -42,15 +43,15 @@ def estimate(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
              **options: Any) -> Model:
     """A union of superquadrics for the object in a point cloud.
 
-    points: N x 3, or H x W x 3 for an image of points, NaN or 0 0 0 where there is none.
-    mask: H x W, the object's pixels. roi: x, y, width, height in the image [px]. box: two
-    corners [m]. remove_plane: the largest thing on a plane. parts: their number, 0: found.
+    points: N x 3, or H x W x 3 for an image of points, NaN or 0 0 0 where there is none; also
+    an array of the fields x, y, z. What a masked array masks is missing. mask: H x W, the object's
+    pixels. roi: x, y, width, height in the image [px]. box: two corners [m]. remove_plane: the largest thing on a plane. parts: their number, 0: found.
     viewpoint, table (n, d), up: what is known of the frame. Further options are those of
     pcl_sq_fit with underscores: max_parts, preset, decomposition, fit, ...
 
     Raises pcl_sq.Error with a sentence if the points give no model, OptionError for options
     that make no sense."""
-    array = np.asarray(points)
+    array = points_of(points)
     words = words_of(dict(options, roi=roi, box=box, remove_plane=remove_plane,
                           parts=parts or None, taper=taper,
                           unit=None if unit == "m" else unit, intrinsics=intrinsics,
@@ -72,7 +73,7 @@ def estimate_scene(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = N
     told apart elsewhere, such as by a neural network: 0 nothing, another number for each
     thing. Options are those of pcl_sq_scene with underscores: min_pixels, max_parts, taper,
     intrinsics, viewpoint, table, up, threads."""
-    array = np.asarray(points)
+    array = points_of(points)
     with in_python_words():
         file, numbers = _core.estimate_scene(
             array, array_of(colors), array_of(labels), frame,
@@ -91,7 +92,7 @@ def fit_superquadric(points: npt.ArrayLike, *, initial: Optional[Superquadric] =
     Points at an even distance in memory, float32 or float64, are used where they are.
     taper: where the points demand one. noise: of the points [m], 0: estimated."""
     try:
-        found = _core.fit_superquadric(np.asarray(points), initial, taper, noise, robust,
+        found = _core.fit_superquadric(points_of(points), initial, taper, noise, robust,
                                        max_outlier_share, min_epsilon, max_epsilon)
     except ValueError as error:
         raise OptionError(str(error)) from None
@@ -109,7 +110,7 @@ def read_cloud(path: PathLike, *, unit: str = "m", samples: Optional[int] = None
     """Reads PCD, PLY, OBJ, STL or text as the programs do; surfaces are sampled."""
     from . import _files
     with in_python_words():
-        return Cloud(*_files.read_cloud(os.fspath(path), words_of(
+        return Cloud(*_files.read_cloud(os.fsencode(path), words_of(
             {"unit": None if unit == "m" else unit, "samples": samples})))
 
 

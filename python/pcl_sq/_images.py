@@ -9,15 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import array_of, plain
 from ._model import Model, PathLike
 from ._options import in_python_words, words_of
 from ._scene import Scene
 from ._types import Array, Error, OptionError
-
-
-def array_of(image: Optional[npt.ArrayLike]) -> Optional[Array]:
-    """None stays None."""
-    return None if image is None else np.asarray(image)
 
 
 def _stereo_module() -> Any:
@@ -39,7 +35,7 @@ def _files_of(calibration: Union[PathLike, Sequence[PathLike], None]) -> List[st
 
 def _steps(depth: npt.ArrayLike,
            depth_scale: Optional[float]) -> Tuple[npt.NDArray[Any], float]:
-    array = np.asarray(depth)
+    array = plain(depth)
     if depth_scale is None:
         return array, 0.0
     if not 0 < depth_scale <= 1000:

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._options import in_python_words, words_of
+from ._arrays import points_of
+from ._options import in_python_words, python_words, words_of
 from ._types import Array, Error, Grasp, Mesh, OptionError
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -41,11 +42,11 @@ class Bodies:
 
     def distance(self, points: npt.ArrayLike, *, method: str = "exact") -> Any:
         """Signed distance of each point to the surface [m], negative inside."""
-        return self.union.distance(np.asarray(points), method=method)
+        return self.union.distance(points, method=method)
 
     def contains(self, points: npt.ArrayLike) -> Any:
         """Whether each point lies inside."""
-        return self.union.contains(np.asarray(points))
+        return self.union.contains(points)
 
     def mesh(self, resolution: int = 96) -> Mesh:
         """The closed surface of all."""
@@ -57,7 +58,7 @@ class Bodies:
 
     def save(self, path: PathLike) -> None:
         """Writes a file, whole or not at all."""
-        self._file.save(os.fspath(path))
+        self._file.save(os.fsencode(path))
 
 
 class Model(Bodies):
@@ -78,7 +79,7 @@ class Model(Bodies):
     @classmethod
     def load(cls, path: PathLike) -> "Model":
         """Reads a model file."""
-        return cls(_core.ModelFile.load(os.fspath(path)))
+        return cls(_core.ModelFile.load(os.fsencode(path)))
 
     @classmethod
     def from_json(cls, text: str) -> "Model":
@@ -129,7 +130,7 @@ class Model(Bodies):
     @property
     def notes(self) -> List[str]:
         """Fall-backs and what to do about them, sentences."""
-        return list(self.report.get("notes", []))
+        return [python_words(note) for note in self.report.get("notes", [])]
 
     @property
     def confidence(self) -> Optional[float]:
@@ -150,7 +151,7 @@ class Model(Bodies):
         gripper: franka_hand, wsg_50, robotiq_2f_85, robotiq_3f, or a TOML file. cloud: what
         else stands there, by default the cloud that the model is from. Options of
         pcl_sq_grasp: friction, clearance, min_observed, viewpoint, table, up."""
-        around = self.cloud if cloud is None else np.asarray(cloud)
+        around = self.cloud if cloud is None else points_of(cloud)
         words = words_of(dict(options, gripper=os.fspath(gripper), count=count))
         with in_python_words():
             plan = json.loads(_core.plan_grasps(self._file, around, self.obstacles, words))
@@ -197,9 +198,6 @@ class Model(Bodies):
         return "<pcl_sq.Model of %d superquadric%s%s>" % (
             len(self), "" if len(self) == 1 else "s", sure)
 
-    def __reduce__(self) -> Tuple[Any, ...]:
-        return (_unpickled, (self.to_json(-1), self.cloud, self.colors, self.object_indices))
-
 
 class View:
     """A model to turn: shown by a notebook, saved, or opened in the browser."""
@@ -214,7 +212,7 @@ class View:
 
     def save(self, path: PathLike) -> None:
         """Writes the page, whole or not at all."""
-        _core.write_file(os.fspath(path), self.html.encode())
+        _core.write_file(os.fsencode(path), self.html.encode())
 
     def open(self) -> None:
         """Shows the page in the browser."""
@@ -227,7 +225,7 @@ class View:
 def write_export(path: PathLike, endings: Sequence[str],
                  files_of: Callable[[str, str], List[Tuple[str, bytes]]]) -> None:
     """Writes what files_of(ending, name) gives: the file that is asked for, and meshes."""
-    folder, base = os.path.split(os.fspath(path))
+    folder, base = os.path.split(os.fsdecode(path))
     stem, ending = os.path.splitext(base)
     name = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in stem)
     if ending.lower() not in endings:
@@ -235,9 +233,10 @@ def write_export(path: PathLike, endings: Sequence[str],
             ", ".join(endings[:-1]), endings[-1], ending))
     files = files_of(ending.lower(), name or "object")
     if not files:
-        raise Error("the model has no parts, so '%s' is not written." % os.fspath(path))
+        raise Error("the model has no parts, so '%s' is not written." % os.fsdecode(path))
     for number, (file, contents) in enumerate(files):
-        _core.write_file(os.path.join(folder, base if number == 0 else file), contents)
+        place = os.path.join(folder, base if number == 0 else file)
+        _core.write_file(os.fsencode(place), contents)
 
 
 def render_json(text: str, cloud: Optional[Array], colors: Optional[npt.NDArray[np.uint8]],
@@ -255,7 +254,3 @@ def render_json(text: str, cloud: Optional[Array], colors: Optional[npt.NDArray[
                               height, opacity, title)
     except RuntimeError as error:
         raise Error(str(error)) from None
-
-
-def _unpickled(text: str, cloud: Any, colors: Any, indices: Any) -> Model:
-    return Model(_core.ModelFile.from_json(text), cloud, colors, indices)

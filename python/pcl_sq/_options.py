@@ -6,6 +6,8 @@ import contextlib
 import re
 from typing import Any, Iterator, List, Mapping
 
+import numpy as np
+
 from ._types import Error, OptionError
 
 #: options of the programs that name files to write or to read, or are for people
@@ -37,7 +39,7 @@ def words_of(options: Mapping[str, Any]) -> List[str]:
         option = "--" + name.replace("_", "-")
         if value is None:
             continue
-        if isinstance(value, bool):
+        if isinstance(value, (bool, np.bool_)):
             if value:
                 words.append(option)
             elif name in ("taper", "refine"):
@@ -47,12 +49,16 @@ def words_of(options: Mapping[str, Any]) -> List[str]:
     return words
 
 
+def python_words(sentence: str) -> str:
+    """--remove-plane of a program's sentence as remove_plane."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda found: found.group(1).replace("-", "_"),
+                  sentence)
+
+
 @contextlib.contextmanager
 def in_python_words() -> Iterator[None]:
     """Names options in the sentences of exceptions as Python does."""
     try:
         yield
     except Error as error:
-        sentence = re.sub(r"--([a-z][a-z-]*)",
-                          lambda found: found.group(1).replace("-", "_"), str(error))
-        raise type(error)(sentence) from None
+        raise type(error)(python_words(str(error))) from None

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._model import Bodies, Model, PathLike, View, render_json, write_export
+from ._options import python_words
 from ._types import Array, Error, Grasp
 
 
@@ -36,7 +37,7 @@ class Thing(Model):
     @property
     def notes(self) -> List[str]:
         """Fall-backs and what to do about them, sentences."""
-        return list(self._notes)
+        return [python_words(note) for note in self._notes]
 
 
 class Scene(Bodies):
@@ -57,7 +58,7 @@ class Scene(Bodies):
     @classmethod
     def load(cls, path: PathLike) -> "Scene":
         """Reads a scene file."""
-        return cls(_core.SceneFile.load(os.fspath(path)))
+        return cls(_core.SceneFile.load(os.fsencode(path)))
 
     @classmethod
     def from_json(cls, text: str) -> "Scene":
@@ -81,7 +82,7 @@ class Scene(Bodies):
     @property
     def notes(self) -> List[str]:
         """Fall-backs and what was left out, sentences."""
-        return list(self._file.notes)
+        return [python_words(note) for note in self._file.notes]
 
     def plan_grasps(self, number: Optional[int] = None, **options: Any) -> List[Grasp]:
         """Ranked grasps of one thing, best first; the others and the table are in the way.
@@ -144,10 +145,3 @@ class Scene(Bodies):
 
     def __repr__(self) -> str:
         return "<pcl_sq.Scene of %d thing%s>" % (len(self), "" if len(self) == 1 else "s")
-
-    def __reduce__(self) -> Tuple[Any, ...]:
-        return (_unpickled, (self.to_json(-1), self.cloud, self.colors, self.labels))
-
-
-def _unpickled(text: str, cloud: Any, colors: Any, labels: Any) -> Scene:
-    return Scene(_core.SceneFile.from_json(text), cloud, colors, labels)

@@ -7,13 +7,6 @@ namespace pcl_sq::python {
 
 namespace {
 
-std::string shapeText(const py::array& array) {
-  std::string text;
-  for (py::ssize_t i = 0; i < array.ndim(); ++i)
-    text += (i > 0 ? " x " : "") + std::to_string(array.shape(i));
-  return text.empty() ? "a single number" : text;
-}
-
 /** \brief Distance of the rows in numbers of type T; 0 where they cannot be used where
  * they are. */
 template <typename T>
@@ -38,8 +31,21 @@ py::ssize_t evenStride(const py::array& array) {
 
 } // namespace
 
+std::string shapeText(const py::array& array) {
+  std::string text;
+  for (py::ssize_t i = 0; i < array.ndim(); ++i)
+    text += (i > 0 ? " x " : "") + std::to_string(array.shape(i));
+  return text.empty() ? "a single number" : text;
+}
+
 PointArray::PointArray(const py::object& points) {
-  const py::array array = py::array::ensure(points);
+  // masked arrays and fields x, y, z are numpy's to tell apart
+  const bool simple =
+      py::type::of(points).is(py::module_::import("numpy").attr("ndarray")) &&
+      py::array(points).dtype().attr("names").is_none();
+  const py::array array = py::array::ensure(
+      simple ? points
+             : py::module_::import("pcl_sq._arrays").attr("points_of")(points));
   if (!array) {
     PyErr_Clear();
     throw py::type_error("points want an array of numbers, float32 or float64");

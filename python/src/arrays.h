@@ -16,6 +16,9 @@ namespace pcl_sq::python {
 
 namespace py = pybind11;
 
+/** \brief An array's shape for a message, "480 x 640". */
+std::string shapeText(const py::array& array);
+
 /** \brief Points of an array, or of what numpy makes one of, whose last side is three:
  * one point, N x 3, H x W x 3.
  *

@@ -100,24 +100,20 @@ void addSuperquadric(py::module_& module) {
           [](const S& s, int divisions) {
             if (divisions < 2 || divisions > 1000)
               throw std::invalid_argument("divisions wants 2 to 1000");
-            return meshToPython(meshSuperquadric(s, divisions));
+            TriangleMesh mesh;
+            {
+              const py::gil_scoped_release unlocked;
+              mesh = meshSuperquadric(s, divisions);
+            }
+            return meshToPython(mesh);
           },
           py::arg("divisions") = 24,
           "The closed surface as a Mesh.")
-      .def(
-          "sample",
-          [](const S& s, std::size_t count, unsigned seed) {
-            const std::vector<Eigen::Vector3d> points = sampleUniform(s, count, seed);
-            py::array_t<double> result({py::ssize_t(points.size()), py::ssize_t(3)});
-            Eigen::Map<Eigen::Matrix3Xd> out(
-                result.mutable_data(), 3, Eigen::Index(points.size()));
-            for (std::size_t i = 0; i < points.size(); ++i)
-              out.col(Eigen::Index(i)) = points[i];
-            return result;
-          },
-          py::arg("count"),
-          py::arg("seed") = 0,
-          "Points uniform in area on the surface, N x 3.")
+      .def("sample",
+           &sampleOf,
+           py::arg("count"),
+           py::arg("seed") = 0,
+           "Points uniform in area on the surface, N x 3.")
       .def(py::pickle(
           [](const S& s) {
             return py::make_tuple(s.semi_axes,
@@ -210,6 +206,9 @@ void addUnion(py::module_& module) {
           "volume",
           [](const M& m) { return massProperties(m).volume; },
           "Of the material, shared space once [m^3].")
+      .def(py::pickle(
+          [](const M& m) { return py::make_tuple(m.parts); },
+          [](const py::tuple& t) { return M{t[0].cast<std::vector<Superquadric>>()}; }))
       .def("__repr__", [](const M& m) { return "<" + textOf(m) + ">"; });
 }
 

@@ -69,12 +69,18 @@ py::array_t<double> eachVector(const py::object& array, const Function& f) {
   return result;
 }
 
-/** \brief Distances of many points by the kernels; inf becomes NaN. */
+/** \brief Distances of many points by the kernels; NaN where a coordinate is not
+ * finite. */
 inline std::vector<double> quickDistances(const Superquadric& body,
                                           const PointArray& points) {
-  const Eigen::VectorXd d = points.visit(
-      [&](const auto& columns) { return surfaceDistances(body, columns); });
-  return {d.data(), d.data() + d.size()};
+  return points.visit([&](const auto& columns) {
+    const Eigen::VectorXd d = surfaceDistances(body, columns);
+    std::vector<double> values(d.data(), d.data() + d.size());
+    for (Eigen::Index i = 0; i < columns.cols(); ++i)
+      if (!columns.col(i).allFinite())
+        values[std::size_t(i)] = std::numeric_limits<double>::quiet_NaN();
+    return values;
+  });
 }
 
 template <typename Body>
@@ -96,7 +102,7 @@ distanceOf(const Body& body, const py::object& array, const std::string& method)
       for (const Superquadric& part : body.parts) {
         const std::vector<double> d = quickDistances(part, points);
         for (std::size_t i = 0; i < d.size(); ++i)
-          least[i] = std::min(least[i], d[i]);
+          least[i] = std::isnan(d[i]) ? d[i] : std::min(least[i], d[i]);
       }
     }
   }
@@ -130,7 +136,24 @@ inline Superquadric makeSuperquadric(const Eigen::Vector3d& semi_axes,
 }
 
 inline py::tuple boundsOf(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty())
+    throw std::invalid_argument("a union without parts has no bounds");
   return py::make_tuple(Eigen::Vector3d(box.min()), Eigen::Vector3d(box.max()));
+}
+
+/** \brief Points uniform in area on a body, N x 3. */
+inline py::array_t<double>
+sampleOf(const Superquadric& body, std::size_t count, unsigned seed) {
+  std::vector<double> values;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::vector<Eigen::Vector3d> points = sampleUniform(body, count, seed);
+    values.reserve(3 * points.size());
+    for (const Eigen::Vector3d& p : points)
+      values.insert(values.end(), p.data(), p.data() + 3);
+  }
+  const auto rows = static_cast<py::ssize_t>(values.size() / 3);
+  return ownedArray(std::move(values), {rows, 3});
 }
 
 template <typename T>

@@ -10,6 +10,13 @@
 
 namespace pcl_sq::python {
 
+/** \brief Sets Python's exception; names of files may hold bytes that are not UTF-8. */
+inline void setError(const pybind11::object& type, const std::string& sentence) {
+  const auto text = pybind11::reinterpret_steal<pybind11::object>(PyUnicode_DecodeUTF8(
+      sentence.data(), static_cast<Py_ssize_t>(sentence.size()), "backslashreplace"));
+  PyErr_SetObject(type.ptr(), text.ptr());
+}
+
 /** \brief Runs work without the interpreter's lock. What contradicts itself becomes
  * ValueError, all other failures pcl_sq.Error. */
 template <typename Work>
@@ -17,7 +24,7 @@ auto guarded(const Work& work) {
   const auto raise = [](const char* name, const std::string& sentence) {
     const pybind11::gil_scoped_acquire lock;
     pybind11::object type = pybind11::module_::import("pcl_sq._types").attr(name);
-    PyErr_SetString(type.ptr(), sentence.c_str());
+    setError(type, sentence);
     throw pybind11::error_already_set();
   };
   std::string sentence;
@@ -39,6 +46,20 @@ auto guarded(const Work& work) {
   }
   raise(usage ? "OptionError" : "Error", sentence);
   throw app::Failure(sentence); // not reached
+}
+
+/** \brief What is out of range becomes pcl_sq.OptionError, which is a ValueError too,
+ * in the module that calls this. */
+inline void raiseOptionErrors() {
+  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown)
+        std::rethrow_exception(thrown);
+    } catch (const std::invalid_argument& error) {
+      setError(pybind11::module_::import("pcl_sq._types").attr("OptionError"),
+               error.what());
+    }
+  });
 }
 
 } // namespace pcl_sq::python

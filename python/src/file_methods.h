@@ -27,28 +27,31 @@ void succeed(const Function& function) {
   });
 }
 
-/** \brief to_json(), from_json(), save(), load(). \param[in] kind of file, a noun */
+/** \brief to_json(), from_json(), save(), load(), and that copies are equal. \param[in]
+ * kind of file, a noun */
 template <typename File>
 void addFileMethods(py::class_<File>& type,
                     const std::string& kind,
                     bool (*save)(const std::string&, const File&, std::string*),
                     bool (*load)(const std::string&, File&, std::string*)) {
+  const auto read = [kind](const std::string& text) {
+    File file;
+    succeed([&](std::string* why) {
+      const bool found = fromJson(text, file, why);
+      *why = "this text is no " + kind + ": " + *why;
+      return found;
+    });
+    return file;
+  };
   type.def_readonly("frame", &File::frame)
       .def_readonly("table", &File::table)
       .def_readwrite("extra_json", &File::extra_json)
       .def("to_json",
            py::overload_cast<const File&, int>(&toJson),
            py::arg("indent") = 2)
-      .def_static("from_json",
-                  [kind](const std::string& text) {
-                    File file;
-                    succeed([&](std::string* why) {
-                      const bool read = fromJson(text, file, why);
-                      *why = "this text is no " + kind + ": " + *why;
-                      return read;
-                    });
-                    return file;
-                  })
+      .def_static("from_json", read)
+      .def(py::pickle([](const File& file) { return py::str(toJson(file, -1)); },
+                      [read](const py::str& text) { return read(text); }))
       .def("save",
            [save](const File& file, const std::string& path) {
              succeed([&](std::string* why) { return save(path, file, why); });

@@ -19,35 +19,46 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/** \brief An image of bytes, 16 bits or floats, grey or RGB, as OpenCV has it: BGR. */
-cv::Mat imageOf(const py::array& array, const char* name) {
-  const bool color = array.ndim() == 3 && array.shape(2) == 3;
-  if (!color && array.ndim() != 2)
+enum class Kind { PICTURE, DEPTH, MASK };
+
+/** \brief Height x width of an array, x 3 if it may and does have colours. A last side
+ * of one, as OpenCV's grey images have it, is none. */
+cv::Mat sharedImage(const py::array& array, int depth, bool color) {
+  return {int(array.shape(0)),
+          int(array.shape(1)),
+          CV_MAKETYPE(depth, color ? 3 : 1),
+          const_cast<void*>(array.data())};
+}
+
+/** \brief An image as OpenCV has it, BGR: pictures of bytes or 16 bits, depths of these
+ * or of floats, masks of anything that is zero or not. */
+cv::Mat imageOf(const py::array& array, const char* name, Kind kind) {
+  const py::ssize_t channels = array.ndim() == 3 ? array.shape(2) : 1;
+  const bool color = kind == Kind::PICTURE && channels == 3;
+  if ((array.ndim() != 2 && array.ndim() != 3) || (channels != 1 && !color))
     throw std::invalid_argument(std::string(name) +
-                                " wants an array of height x width, or x 3 for RGB");
-  int depth = CV_8U;
-  py::array whole;
-  if (py::isinstance<py::array_t<std::uint8_t>>(array))
-    whole = py::array_t<std::uint8_t, py::array::c_style>(array);
-  else if (py::isinstance<py::array_t<std::uint16_t>>(array)) {
-    whole = py::array_t<std::uint16_t, py::array::c_style>(array);
-    depth = CV_16U;
-  } else if (array.dtype().kind() == 'f') {
-    whole = py::array_t<float, py::array::c_style | py::array::forcecast>(array);
-    depth = CV_32F;
-  } else if (array.dtype().kind() == 'b') {
-    whole = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>(array);
-  } else
-    throw py::type_error(std::string(name) + " wants uint8, uint16 or floats");
-  const cv::Mat shared(int(array.shape(0)),
-                       int(array.shape(1)),
-                       CV_MAKETYPE(depth, color ? 3 : 1),
-                       const_cast<void*>(whole.data()));
+                                " wants an array of height x width" +
+                                (kind == Kind::PICTURE ? ", or x 3 for RGB" : "") +
+                                ", not " + shapeText(array));
+  if (array.size() == 0)
+    throw std::invalid_argument(std::string(name) + " holds no pixels");
+  const char type = array.dtype().kind();
+  constexpr int COPY = py::array::c_style | py::array::forcecast;
   cv::Mat image;
-  if (color)
-    cv::cvtColor(shared, image, cv::COLOR_RGB2BGR);
+  if (kind == Kind::MASK) {
+    const auto set = py::array_t<bool, COPY>(array);
+    image = sharedImage(set, CV_8U, false) > 0;
+  } else if (type == 'u' && array.itemsize() == 1)
+    image = sharedImage(py::array_t<std::uint8_t, COPY>(array), CV_8U, color).clone();
+  else if (type == 'u' && array.itemsize() == 2)
+    image = sharedImage(py::array_t<std::uint16_t, COPY>(array), CV_16U, color).clone();
+  else if (type == 'f' && kind == Kind::DEPTH)
+    image = sharedImage(py::array_t<float, COPY>(array), CV_32F, false).clone();
   else
-    image = shared.clone();
+    throw py::type_error(std::string(name) + " wants uint8" +
+                         (kind == Kind::DEPTH ? ", uint16 or floats" : " or uint16"));
+  if (color)
+    cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
   return image;
 }
 
@@ -78,16 +89,19 @@ struct GivenImages {
   std::string left_name, right_name, depth_name;
 
   GivenImages(const Image& left, const Image& right, const Image& depth) {
-    take(left, depth ? "color" : "left", front.left_image, left_name);
-    take(right, "right", front.right_image, right_name);
-    take(depth, "depth", front.depth_image, depth_name);
+    take(left, depth ? "color" : "left", Kind::PICTURE, front.left_image, left_name);
+    take(right, "right", Kind::PICTURE, front.right_image, right_name);
+    take(depth, "depth", Kind::DEPTH, front.depth_image, depth_name);
   }
 
-  static void
-  take(const Image& array, const char* name, cv::Mat& image, std::string& path) {
+  static void take(const Image& array,
+                   const char* name,
+                   Kind kind,
+                   cv::Mat& image,
+                   std::string& path) {
     if (!array)
       return;
-    image = imageOf(*array, name);
+    image = imageOf(*array, name, kind);
     path = name;
   }
 
@@ -125,9 +139,7 @@ public:
     app::FrontOptions& front = images.front;
     app::ModelOptions model;
     std::string mask_name;
-    GivenImages::take(mask, "mask", front.mask_image, mask_name);
-    if (!front.mask_image.empty())
-      front.mask_image = front.mask_image > 0;
+    GivenImages::take(mask, "mask", Kind::MASK, front.mask_image, mask_name);
     StereoView seen;
     const app::StereoModel made = guarded([&] {
       app::parseWords(
@@ -206,6 +218,7 @@ py::tuple estimateScene(const Image& left,
 
 PYBIND11_MODULE(_stereo, module) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  pcl_sq::python::raiseOptionErrors();
   pybind11::class_<pcl_sq::python::Frames>(module, "Frames")
       .def(pybind11::init<bool>())
       .def("estimate", &pcl_sq::python::Frames::estimate);

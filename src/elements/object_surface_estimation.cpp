@@ -47,8 +47,11 @@ bool SurfaceEstimator::crop() {
     box = Eigen::AlignedBox3d(input_.region->min, input_.region->max);
   report_.region_points = object_.size();
   if (object_.empty())
-    return fail("no finite point lies in the region; check the box against the cloud's "
-                "extent");
+    return fail(input_.region ? "no finite point lies in the region; check the box "
+                                "against the cloud's extent"
+                : input_.indices.empty()
+                    ? "there are no points; give a cloud, and indices, that hold some"
+                    : "none of the points is finite; give others");
   constexpr double FARTHEST = 1e7; // [m]; beyond, single precision has no shape left
   if (box.min().minCoeff() < -FARTHEST || box.max().maxCoeff() > FARTHEST)
     return fail("the region reaches farther than 1e7 m; remove the outliers or set a "
@@ -81,6 +84,11 @@ void SurfaceEstimator::dropStrays(const MultiSuperquadric& model, double noise) 
 
 bool SurfaceEstimator::evaluate(MultiSuperquadric& model) {
   const bool parts = options_.decomposition == Decomposition::PARTS;
+  for (const Superquadric& part : model.parts)
+    if (std::string why; !part.isValid(&why)) { // such as sizes of 1e-30
+      model = {};
+      return fail("the points give no superquadric that can be used: " + why);
+    }
   double noise = 0.0;
   for (const PartReport& part : report_.parts)
     noise = std::max(noise, part.fit.sigma);
@@ -123,6 +131,12 @@ bool estimateSurface(const EstimationInput* input,
   report = {};
   if (!input)
     return fail("there is no input cloud; call setInputCloud first", report);
+  if (const char* why =
+          contradictionOf(static_cast<std::size_t>(input->points.cols()),
+                          static_cast<std::size_t>(std::max(0, input->width)),
+                          static_cast<std::size_t>(std::max(0, input->height)),
+                          input->indices))
+    return fail(why, report);
   return SurfaceEstimator(*input, options, threads, report).estimate(model);
 }
 

@@ -39,6 +39,11 @@ bool segmentPrisms(const CoordinateMap& points,
           "setVoxelLayout()";
     return false;
   }
+  if (const char* wrong =
+          contradictionOf(static_cast<std::size_t>(points.cols()), 0, 1, indices)) {
+    why = wrong;
+    return false;
+  }
   if (std::min(layout.divisions[0], layout.divisions[1]) > MAX_PRISM_CELLS) {
     why = "The grid has " + std::to_string(layout.divisions[0]) + " x " +
           std::to_string(layout.divisions[1]) + " voxels in x and y, more than " +

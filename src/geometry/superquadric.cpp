@@ -29,9 +29,7 @@ double aboveRim(const Superquadric& s, const Eigen::Vector3d& local) {
   return 1.0 + local.z() / s.semi_axes.z() - s.rimHeight();
 }
 
-/** \brief Support function in the own frame (M3); the argument of the dual gauge is a_k
- * u_k.
- */
+/** \brief Support function in the own frame (M3): the dual gauge of a_k u_k. */
 LogGauge logSupport(const Superquadric& s, const Eigen::Vector3d& u) {
   return detail::logGauge(
       u, s.semi_axes.cwiseInverse(), dualEpsilon(s.epsilon1), dualEpsilon(s.epsilon2));
@@ -287,13 +285,14 @@ Superquadric Superquadric::fromCoefficients(const SuperquadricCoefficients& c) {
 }
 
 Superquadric Superquadric::fromCoefficients(const Eigen::VectorXf& coefficients) {
-  return fromCoefficients(
-      SuperquadricCoefficients(coefficients.head<11>().cast<double>()));
+  Eigen::VectorXf c = coefficients; // what is missing is zero, and no exponent may be
+  c.conservativeResizeLike(Eigen::VectorXf::Zero(11));
+  return fromCoefficients(SuperquadricCoefficients(c.cast<double>()));
 }
 
 Superquadric Superquadric::fromCoefficients(const std::vector<float>& coefficients) {
-  return fromCoefficients(
-      Eigen::VectorXf(Eigen::Map<const Eigen::VectorXf>(coefficients.data(), 11)));
+  const auto size = static_cast<Eigen::Index>(coefficients.size());
+  return fromCoefficients(Eigen::VectorXf::Map(coefficients.data(), size).eval());
 }
 
 } // namespace pcl_sq

@@ -98,6 +98,7 @@ void refuseEndless(const std::string& path, int descriptor) {
 }
 
 std::string readNamed(const std::string& path) {
+  detail::refuseZeroBytes(path);
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor < 0)
     throw FileFailure{"cannot read '" + path + "': " + readingFailed(errno)};

@@ -70,6 +70,13 @@ std::vector<std::pair<std::string, double>> timesFromJson(const Json& json) {
   return times;
 }
 
+Json jsonOf(const std::string& text, const char* name) {
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    throw Exception(std::string(name) + " is no JSON");
+  return json;
+}
+
 std::string textOf(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }

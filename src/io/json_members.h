@@ -4,6 +4,7 @@
 
 #include "io/json_text.h"
 #include "pcl_sq/config.h"
+#include "pcl_sq/exception.h"
 #include "pcl_sq/file_io.h"
 #include "pcl_sq/model_io.h"
 
@@ -109,20 +110,27 @@ void readCommon(const Json& json, const std::vector<std::string>& known, File& f
   file.extra_json = extra.dump();
 }
 
-/** \brief Writes what readCommon() reads but the frame. */
+/** \brief The JSON of a text that a user hands over. \param[in] name the member that
+ * the text is \throw Exception if it is none */
+Json jsonOf(const std::string& text, const char* name);
+
+/** \brief Writes what readCommon() reads but the frame. \throw Exception if options or
+ * extra members are no JSON */
 template <class File>
 void addCommon(const File& file, Json& json) {
   json["input"] = {{"path", file.input_path},
                    {"points", file.input_points},
                    {"finite_points", file.finite_points}};
-  json["options"] = Json::parse(file.options_json);
+  json["options"] = jsonOf(file.options_json, "options_json");
   Json times = Json::object();
   for (const auto& [stage, ms] : file.timings_ms)
     addFinite(times, stage.c_str(), ms);
   json["timings_ms"] = times;
   if (file.table)
     json["table"] = *file.table;
-  const Json extra = Json::parse(file.extra_json);
+  const Json extra = jsonOf(file.extra_json, "extra_json");
+  if (!extra.is_object())
+    throw Exception("extra_json is no JSON object");
   for (const auto& [key, value] : extra.items())
     json[key] = value;
   json["generator"] = "pcl_sq " PCL_SQ_VERSION;
@@ -174,6 +182,28 @@ bool loadFile(const std::string& path,
     return true;
   if (why)
     *why = "'" + path + "' is no " + kind + " file: " + reason;
+  return false;
+}
+
+/** \brief Writes a file by name if loadFile() would read it again. \param[in] kind what
+ * it is, "model" \param[out] why optional */
+template <class File>
+bool saveFile(const std::string& path,
+              const std::string& kind,
+              const File& file,
+              std::string* why) {
+  std::string text, reason;
+  File again;
+  try {
+    text = toJson(file);
+    if (fromJson(text, again, &reason))
+      return writeFile(path, text + "\n", why);
+  } catch (const Exception& exception) {
+    reason = exception.what();
+  }
+  if (why)
+    *why = "'" + path + "' is not written, for it would be no " + kind +
+           " file: " + reason;
   return false;
 }
 

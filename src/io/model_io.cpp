@@ -158,7 +158,7 @@ bool fromJson(const std::string& text, ModelFile& file, std::string* why) {
 }
 
 bool saveModel(const std::string& path, const ModelFile& file, std::string* why) {
-  return writeFile(path, toJson(file) + "\n", why);
+  return saveFile(path, "model", file, why);
 }
 
 bool loadModel(const std::string& path, ModelFile& file, std::string* why) {

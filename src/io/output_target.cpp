@@ -103,9 +103,15 @@ void failToWrite(const std::string& path, int error) {
   }
 }
 
+void refuseZeroBytes(const std::string& path) {
+  if (path.find('\0') != std::string::npos)
+    throw FileFailure{"a file name holds a zero byte, which no name may"};
+}
+
 OutputTarget resolveOutput(const std::string& path) {
   if (path.empty())
     refuse(path, "the name is empty");
+  refuseZeroBytes(path);
   if (path == "-")
     return ownFile(path, standardOutput());
   constexpr int MOST_LINKS = 40; // as many as Linux follows

@@ -27,6 +27,10 @@ struct FileFailure {
   std::string why;
 };
 
+/** \brief Refuses a name that the system would take for the shorter one before its zero
+ * byte. \throw FileFailure */
+void refuseZeroBytes(const std::string& path);
+
 /** \brief Follows the links of a name. \throw FileFailure for what is no place for a
  * file at all: folders, sockets, folders that do not exist */
 OutputTarget resolveOutput(const std::string& path);

@@ -129,7 +129,7 @@ bool fromJson(const std::string& text, SceneFile& file, std::string* why) {
 }
 
 bool saveScene(const std::string& path, const SceneFile& file, std::string* why) {
-  return writeFile(path, toJson(file) + "\n", why);
+  return saveFile(path, "scene", file, why);
 }
 
 bool loadScene(const std::string& path, SceneFile& file, std::string* why) {

@@ -34,6 +34,13 @@ namespace {
 /** \brief Noise and dilation of an outline that colours told [px]. */
 constexpr double FOUND_OUTLINE = 1.0, FOUND_DILATION = 0.7;
 
+bool fail(const std::string& sentence, Scene& scene) {
+  scene.failure = sentence;
+  scene.objects.clear();
+  PCL_WARN("[pcl_sq::SceneEstimation::estimate] %s.\n", sentence.c_str());
+  return false;
+}
+
 /** \brief One estimation: the input, the settings and what is found. */
 class SceneEstimator {
 public:
@@ -53,12 +60,7 @@ public:
   }
 
 private:
-  bool fail(const std::string& sentence) {
-    scene_.failure = sentence;
-    scene_.objects.clear();
-    PCL_WARN("[pcl_sq::SceneEstimation::estimate] %s.\n", sentence.c_str());
-    return false;
-  }
+  bool fail(const std::string& sentence) { return detail::fail(sentence, scene_); }
 
   bool look();
   bool findTable();
@@ -92,6 +94,9 @@ bool SceneEstimator::look() {
                 std::to_string(labels.height) + " pixels, the cloud " +
                 std::to_string(input_.width) + " x " + std::to_string(input_.height) +
                 "; give labels of the same image");
+  if (!labels.empty() && labels.values.size() != std::size_t(input_.points.cols()))
+    return fail(
+        "the labels' values are not as many as their pixels; give one for each");
   if (input_.chosen) {
     chosen_ = Eigen::Matrix3Xf::Constant(
         3, input_.points.cols(), std::numeric_limits<float>::quiet_NaN());
@@ -266,11 +271,14 @@ bool estimateScene(const SceneInput* input,
                    unsigned int threads,
                    Scene& scene) {
   scene = {};
-  if (!input) {
-    scene.failure = "there is no input cloud; call setInputCloud first";
-    PCL_WARN("[pcl_sq::SceneEstimation::estimate] %s.\n", scene.failure.c_str());
-    return false;
-  }
+  if (!input)
+    return fail("there is no input cloud; call setInputCloud first", scene);
+  if (const char* why =
+          contradictionOf(static_cast<std::size_t>(input->points.cols()),
+                          static_cast<std::size_t>(std::max(0, input->width)),
+                          static_cast<std::size_t>(std::max(0, input->height)),
+                          input->indices))
+    return fail(why, scene);
   return SceneEstimator(*input, options, threads, scene).estimate();
 }
 

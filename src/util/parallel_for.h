@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 
@@ -14,7 +15,12 @@ namespace pcl_sq::detail {
  * waits for its turn there holds up the others for longer than it would have helped */
 template <typename Work>
 void parallelFor(std::size_t count, unsigned int threads, const Work& work) {
-  const int n_threads = threads > 0 ? int(threads) : omp_get_num_procs();
+  // no more than there is work for: OpenMP ends the process where it cannot have them
+  constexpr std::size_t MOST = 1024;
+  const int n_threads =
+      threads > 0
+          ? int(std::clamp(std::min(count, MOST), std::size_t(1), std::size_t(threads)))
+          : omp_get_num_procs();
   const int dynamic = omp_get_dynamic();
   omp_set_dynamic(threads == 0 ? 1 : dynamic);
   std::exception_ptr error; // must not leave the parallel region by itself

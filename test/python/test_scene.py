@@ -229,3 +229,10 @@ def test_what_is_no_image_of_points_or_holds_nothing_is_refused(cans):
         pcl_sq.estimate_scene(np.full((50, 50, 3), np.nan, np.float32))
     with pytest.raises(pcl_sq.OptionError, match="min_pixels"):
         pcl_sq.estimate_scene(cans[0], min_pixels=1)
+
+
+def test_a_copied_thing_is_still_one_of_its_scene(scene):
+    for again in pickle.loads(pickle.dumps(scene[1])), pickle.loads(pickle.dumps(scene))[1]:
+        assert isinstance(again, pcl_sq.Thing) and again.number == 2
+        assert again.roi == scene[1].roi and again.confidence == scene[1].confidence
+        assert repr(again.obstacles) == repr(scene[1].obstacles)

@@ -139,6 +139,10 @@ void AdaptiveVoxelGrid<PointT>::applyFilter(PointCloud& output) {
   layout_ = VoxelLayout();
   leaf_layout_.clear();
   removed_indices_->clear();
+  if (const char* wrong = detail::contradictionOf(*input_, *indices_)) {
+    PCL_ERROR("[pcl_sq::%s::applyFilter] %s.\n", filter_name_.c_str(), wrong);
+    return;
+  }
   RoiBox region;
   if (!findRegion(region)) {
     PCL_WARN("[pcl_sq::%s::applyFilter] The cloud has no finite points; give one that "

@@ -23,5 +23,33 @@ CoordinateMap coordinatesOf(const pcl::PointCloud<PointT>& cloud) {
           Eigen::OuterStride<>(sizeof(PointT) / sizeof(float))};
 }
 
+/** \brief What is wrong with a cloud or with the indices handed to setIndices(), a
+ * sentence; null if nothing is. PCL's classes read what indices name without a look,
+ * also outside of the cloud: such as indices that are those of the cloud before. */
+inline const char* contradictionOf(std::size_t points,
+                                   std::size_t width,
+                                   std::size_t height,
+                                   const pcl::Indices& indices) {
+  if (height > 1 && width * height != points)
+    return "the cloud's width times its height is not the number of its points; set "
+           "both, or a height of 1 for a list";
+  for (const auto index : indices)
+    if (static_cast<std::size_t>(index) >= points) // negative ones, too
+      return "an index is that of no point of the cloud; hand this cloud's to "
+             "setIndices()";
+  return nullptr;
+}
+template <typename PointT>
+const char* contradictionOf(const pcl::PointCloud<PointT>& cloud,
+                            const pcl::Indices& indices) {
+  return contradictionOf(cloud.size(), cloud.width, cloud.height, indices);
+}
+
+/** \brief Points in a row of an image; of a list all, whatever its width says. */
+template <typename PointT>
+int columnsOf(const pcl::PointCloud<PointT>& cloud) {
+  return static_cast<int>(cloud.height > 1 ? cloud.width : cloud.size());
+}
+
 } // namespace detail
 } // namespace pcl_sq

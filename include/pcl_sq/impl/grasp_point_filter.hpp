@@ -104,6 +104,11 @@ void GraspPointFilter<PointT>::describe(const pcl::Indices& indices,
 template <typename PointT>
 void GraspPointFilter<PointT>::applyFilter(pcl::Indices& indices) {
   removed_indices_->clear();
+  indices.clear();
+  if (const char* wrong = detail::contradictionOf(*input_, *indices_)) {
+    PCL_ERROR("[pcl_sq::%s::applyFilter] %s.\n", filter_name_.c_str(), wrong);
+    return;
+  }
   if (model_.empty())
     PCL_WARN("[pcl_sq::%s::applyFilter] There is no model and so no point on its "
              "surface; hand one to setModel().\n",

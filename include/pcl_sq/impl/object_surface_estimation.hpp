@@ -45,7 +45,7 @@ bool ObjectSurfaceEstimation<PointT>::estimate(MultiSuperquadric& model) {
     return detail::estimateSurface(nullptr, options_, threads_, model, report_);
   const auto& origin = input_->sensor_origin_;
   const detail::EstimationInput input{detail::coordinatesOf(*input_),
-                                      static_cast<int>(input_->width),
+                                      detail::columnsOf(*input_),
                                       static_cast<int>(input_->height),
                                       {origin[0], origin[1], origin[2]},
                                       input_->header,

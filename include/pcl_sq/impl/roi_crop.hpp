@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/coordinates.hpp"
 #include "pcl_sq/roi_crop.h"
 
 #include <pcl/common/eigen.h>
@@ -53,6 +54,10 @@ template <typename PointT>
 void RoiCrop<PointT>::applyFilter(pcl::Indices& indices) {
   indices.clear();
   removed_indices_->clear();
+  if (const char* wrong = detail::contradictionOf(*input_, *indices_)) {
+    PCL_ERROR("[pcl_sq::%s::applyFilter] %s.\n", filter_name_.c_str(), wrong);
+    return;
+  }
   const Eigen::Vector3f angles = this->getRotation();
   const Eigen::Affine3f from_box =
       pcl::getTransformation(0.0f, 0.0f, 0.0f, angles.x(), angles.y(), angles.z());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/coordinates.hpp"
 #include "pcl_sq/roi_estimator.h"
 
 #include <pcl/common/point_tests.h>
@@ -29,7 +30,10 @@ bool RoiEstimator<PointT>::estimate(RoiBox& region, pcl::Indices& points) {
   if (!initCompute())
     return false;
   std::string why;
-  const bool found = findPoints(points, why) && findBox(points, region, why);
+  if (const char* wrong = detail::contradictionOf(*input_, *indices_))
+    why = wrong;
+  const bool found =
+      why.empty() && findPoints(points, why) && findBox(points, region, why);
   deinitCompute();
   if (!found) {
     region = RoiBox();

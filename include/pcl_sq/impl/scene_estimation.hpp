@@ -75,7 +75,7 @@ bool SceneEstimation<PointT>::estimate(Scene& scene) {
     return detail::estimateScene(nullptr, options_, threads_, scene);
   const auto& origin = input_->sensor_origin_;
   const detail::SceneInput input{detail::coordinatesOf(*input_),
-                                 static_cast<int>(input_->width),
+                                 detail::columnsOf(*input_),
                                  static_cast<int>(input_->height),
                                  detail::colorsOf(*input_),
                                  {origin[0], origin[1], origin[2]},

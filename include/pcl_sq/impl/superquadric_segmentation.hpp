@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/coordinates.hpp"
 #include "pcl_sq/superquadric_segmentation.h"
 
 // the base class's body; PCL's library with it would bring VTK
@@ -72,6 +73,10 @@ void SuperquadricSegmentation<PointT>::segment(
 
 template <typename PointT>
 bool SuperquadricSegmentation<PointT>::initSACModel(const int /*model_type*/) {
+  if (const char* wrong = detail::contradictionOf(*input_, *indices_)) {
+    PCL_ERROR("[pcl_sq::SuperquadricSegmentation::segment] %s.\n", wrong);
+    return false;
+  }
   const auto model = pcl::make_shared<detail::LikelihoodModel<PointT>>(
       input_, *indices_, sample_size_, random_);
   model->setFitOptions(fit_options_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_sq/impl/coordinates.hpp"
 #include "pcl_sq/tabletop_segmentation.h"
 
 #include <pcl/console/print.h>
@@ -25,6 +26,16 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   object.clear();
   if (!initCompute())
     return false;
+  failure_.clear();
+  const pcl::Indices* const lists[] = {indices_.get(), candidates_.get()};
+  for (const pcl::Indices* named : lists)
+    if (const char* wrong =
+            named ? detail::contradictionOf(*input_, *named) : nullptr) {
+      failure_ = wrong;
+      PCL_WARN("[pcl_sq::TabletopSegmentation::segment] %s.\n", wrong);
+      deinitCompute();
+      return false;
+    }
   // an image stays one where points are left out
   const bool image = input_->isOrganized();
   const std::size_t count = image ? input_->size() : indices_->size();
@@ -34,7 +45,8 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   for (std::size_t i = 0; i < indices_->size(); ++i) {
     const auto index = (*indices_)[i];
     const std::size_t column = image ? static_cast<std::size_t>(index) : i;
-    points.col(static_cast<Eigen::Index>(column)) = (*input_)[index].getVector3fMap();
+    points.col(static_cast<Eigen::Index>(column)) =
+        (*input_)[static_cast<std::size_t>(index)].getVector3fMap();
     index_of[column] = index;
   }
   std::vector<bool> candidates;
@@ -51,7 +63,6 @@ bool TabletopSegmentation<PointT>::segment(pcl::Indices& object) {
   if (!options.viewpoint && origin.norm() > 0.0)
     options.viewpoint = origin;
   std::vector<int> columns;
-  failure_.clear();
   const bool found = findTabletopObject(points,
                                         image ? static_cast<int>(input_->width)
                                               : static_cast<int>(count),

@@ -48,7 +48,8 @@ inline bool addSuperquadric(pcl::visualization::PCLVisualizer& viewer,
     for (const auto& triangle : part.triangles) {
       mesh.polygons.emplace_back();
       for (const std::uint32_t corner : triangle)
-        mesh.polygons.back().vertices.push_back(first + corner);
+        mesh.polygons.back().vertices.push_back(
+            static_cast<pcl::index_t>(first + corner));
     }
   }
   pcl::toPCLPointCloud2(vertices, mesh.cloud);

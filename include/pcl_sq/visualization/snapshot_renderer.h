@@ -40,7 +40,8 @@ struct SnapshotImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
   Color at(int x, int y) const {
-    const std::size_t i = 3 * (static_cast<std::size_t>(y) * width + x);
+    const std::size_t i =
+        3 * static_cast<std::size_t>(static_cast<std::ptrdiff_t>(y) * width + x);
     return {rgb[i], rgb[i + 1], rgb[i + 2]};
   }
 };

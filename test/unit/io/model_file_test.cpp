@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models by file name.
 #include "folder.h"
-#include "pcl_sq/model_io.h"
+#include "pcl_sq/file_io.h"
+#include "pcl_sq/scene_io.h"
 
 #include "random_superquadric.h"
 
@@ -46,4 +47,45 @@ TEST(ModelFile, KeepsTapers) {
   EXPECT_TRUE(loadModel(folder / "model.json", read, &why)) << why;
   EXPECT_EQ(read.model.parts[0].kx, 0.1);
   EXPECT_EQ(read.model.parts[0].ky, 0.2);
+}
+
+TEST(ModelFile, WhatCouldNotBeReadBackIsNotWritten) {
+  const test::Folder folder;
+  test::Random random(4);
+  ModelFile good;
+  good.model.parts = {random.superquadric()};
+  std::vector<std::pair<std::string, ModelFile>> wrong(6, {"", good});
+  wrong[0].first = "semi_axes"; // JSON has no word for it
+  wrong[0].second.model.parts[0].semi_axes[0] = std::nan("");
+  wrong[1].first = "1e-20";
+  wrong[1].second.model.parts[0].semi_axes.setConstant(1e-30);
+  wrong[2].first = "length one";
+  wrong[2].second.table = {0.0, 0.0, 5.0, 1.0};
+  wrong[3].first = "extra_json";
+  wrong[3].second.extra_json = "{nonsense";
+  wrong[4].first = "extra_json";
+  wrong[4].second.extra_json = "[1]";
+  wrong[5].first = "options_json";
+  wrong[5].second.options_json = "";
+  for (const auto& [reason, file] : wrong) {
+    std::string why;
+    EXPECT_FALSE(saveModel(folder / "model.json", file, &why));
+    EXPECT_NE(why.find(reason), std::string::npos) << why;
+    SceneFile scene;
+    scene.objects.resize(1);
+    scene.objects[0].file = file;
+    EXPECT_FALSE(saveScene(folder / "scene.json", scene, &why)) << reason;
+  }
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+TEST(ModelFile, ANameWithAZeroByteIsNotTheShorterOne) {
+  const test::Folder folder;
+  std::string why, bytes;
+  const std::string name = folder / "a" + std::string(1, '\0') + "b.json";
+  EXPECT_FALSE(saveModel(name, ModelFile(), &why));
+  EXPECT_NE(why.find("zero byte"), std::string::npos) << why;
+  EXPECT_FALSE(readFile(name, bytes, &why));
+  EXPECT_NE(why.find("zero byte"), std::string::npos) << why;
+  EXPECT_EQ(folder.files(), 0U);
 }
