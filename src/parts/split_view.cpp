@@ -20,7 +20,7 @@ struct Split {
   Cut cut;
   bool shifted = false; ///< believed of solids of revolution only: others bend to it
   bool final = false;   ///< all families were tried
-  Piece first, second;
+  Piece first{}, second{};
   double score = 1e300;
 };
 
@@ -31,9 +31,12 @@ double unbent(const Piece& piece) {
                                                     : piece.score;
 }
 
-Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
-  Split s;
-  s.cut = cut;
+/** \brief A cut and quick fits of its parts; score 1e300 where that exceeds \a most. */
+Split split(const PieceContext& context,
+            const Piece& piece,
+            const Cut& cut,
+            double most) {
+  Split s{cut};
   s.first = cutPiece(context, piece, cut);
   s.second = cutPiece(context, piece, cut.flipped());
   if (s.first.points.empty() || s.second.points.empty())
@@ -41,6 +44,9 @@ Split split(const PieceContext& context, const Piece& piece, const Cut& cut) {
   if (s.first.points.size() < s.second.points.size())
     std::swap(s.first, s.second);
   fitPiece(context, s.first, Effort::QUICK);
+  // costs are not negative: all that lowers a score is the outline's lines
+  if (s.first.score - 0.5 * context.options.silhouette_lines > most)
+    return s;
   fitPiece(context, s.second, Effort::QUICK);
   s.score = s.first.score + s.second.score;
   return s;
@@ -61,19 +67,19 @@ void fitInFull(const PieceContext& context, Split& s, const Superquadric* axis) 
 }
 
 /** \brief Adds the best cut moved to where its two parts fit better: a bottle's
- * shoulder is as long as several of the profile's bins, and either part may have to
- * take it. */
+ * shoulder is as long as several of the profile's bins, and either may take it. */
 void addShifted(const PieceContext& context,
                 const Piece& piece,
+                double most,
                 std::vector<Split>& splits) {
   const auto best = std::min_element(splits.begin(), splits.end(), betterSplit);
-  if (best == splits.end() || !(best->score < 1e299))
+  if (best == splits.end() || !(best->score < most))
     return;
   const double size = halfSize(context, piece);
   std::vector<Split> shifted(SHIFTS.size());
   parallelFor(SHIFTS.size(), context.options.fit.threads, [&](std::size_t i) {
-    shifted[i] =
-        split(context, piece, shiftedCut(context, best->cut, SHIFTS[i] * size));
+    const Cut cut = shiftedCut(context, best->cut, SHIFTS[i] * size);
+    shifted[i] = split(context, piece, cut, best->score);
     shifted[i].shifted = true;
   });
   Split& next = *std::min_element(shifted.begin(), shifted.end(), betterSplit);
@@ -81,15 +87,13 @@ void addShifted(const PieceContext& context,
     splits.push_back(std::move(next));
 }
 
-/** \brief Leaves the cuts that are worth full fits.
- * \param[in] limit what the score is to beat */
-void keepPromising(std::vector<Split>& splits, double limit) {
+/** \brief Leaves the cuts that are worth full fits, of scores up to \a most. */
+void keepPromising(std::vector<Split>& splits, double most) {
   std::sort(splits.begin(), splits.end(), betterSplit);
   if (!splits.empty())
-    limit = std::min(limit + QUICK_SLACK,
-                     QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
+    most = std::min(most, QUICK_FACTOR * (splits.front().score + 0.5 * QUICK_SLACK));
   while (!splits.empty() &&
-         (splits.size() > tuning::split_view::TRIED || splits.back().score > limit))
+         (splits.size() > tuning::split_view::TRIED || splits.back().score > most))
     splits.pop_back();
 }
 
@@ -122,23 +126,11 @@ bool isPart(const PieceContext& context, const Piece& piece) {
 }
 
 /** \brief The best way to cut a piece in two; score 1e300 if there is none.
- * \param[in] axis another part whose axis the two may share, or nullptr
- * \param[in] limit what the score is to beat */
+ * \param[in] axis of another part, or nullptr \param[in] limit what it is to beat */
 Split bestSplit(const PieceContext& context,
                 const Piece& piece,
                 const Superquadric* axis,
                 double limit) {
-  const std::vector<Cut> cuts = proposeCuts(context, piece);
-  std::vector<Split> splits(cuts.size());
-  const unsigned int threads = context.options.fit.threads;
-  parallelFor(cuts.size(), threads, [&](std::size_t i) {
-    splits[i] = split(context, piece, cuts[i]);
-  });
-  addShifted(context, piece, splits);
-  keepPromising(splits, limit);
-  parallelFor(splits.size(), threads, [&](std::size_t i) {
-    fitInFull(context, splits[i], axis);
-  });
   Split best;
   if (standsOff(context, piece, best.first, best.second)) {
     fitPiece(context, best.first, Effort::FULL);
@@ -148,6 +140,18 @@ Split bestSplit(const PieceContext& context,
       best.score = best.first.score + best.second.score;
     best.final = true;
   }
+  // with a handle it is already as good as that
+  const double most = std::min(limit, best.score) + QUICK_SLACK;
+  const std::vector<Cut> cuts = proposeCuts(context, piece);
+  std::vector<Split> splits(cuts.size());
+  parallelFor(cuts.size(), context.options.fit.threads, [&](std::size_t i) {
+    splits[i] = split(context, piece, cuts[i], most);
+  });
+  addShifted(context, piece, most, splits);
+  keepPromising(splits, most);
+  parallelFor(splits.size(), context.options.fit.threads, [&](std::size_t i) {
+    fitInFull(context, splits[i], axis);
+  });
   for (Split& s : splits)
     if (s.score < best.score && isPart(context, s.first) && isPart(context, s.second) &&
         (!s.shifted || (axisOf(s.first) && axisOf(s.second))))
@@ -266,10 +270,11 @@ void splitView(const PieceContext& context,
           piece.straight_misfit < explained && !standsOff(context, piece, body, handle);
       if (piece.final || (good && !exactly))
         continue;
-      Split s =
-          bestSplit(context, piece, axisFor(i), exactly ? 1e299 : piece.straight_score);
       const double whole =
           exactly || piece.misfit < explained ? piece.score : unbent(piece);
+      // the two may be tapered in the end as well, but are to pay without a bend
+      const double limit = piece.fit.fit.model.isBent() ? whole : piece.straight_score;
+      Split s = bestSplit(context, piece, axisFor(i), exactly ? 1e299 : limit);
       if (whole - s.score > gain) {
         gain = whole - s.score;
         best = std::move(s);
