@@ -233,6 +233,10 @@ bool observeObject(const CloudPoints& points,
   std::string reason;
   if (!view.isValid(&reason))
     return fail(reason);
+  if (view.noise.size() > 0 && view.noise.size() != points.cols())
+    return fail("the noise is that of " + std::to_string(view.noise.size()) +
+                " points, the cloud has " + std::to_string(points.cols()) +
+                "; give one number for each point");
   const bool organized = height > 1 && width > 1;
   const bool has_mask = !view.mask.cells.empty();
   if (has_mask && (view.mask.width != width || view.mask.height != height))

@@ -73,7 +73,7 @@ void choosePoints(Observation& o,
   o.out.points.resize(3, static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i)
     o.out.points.col(static_cast<Eigen::Index>(i)) = o.at(chosen[i]);
-  if (o.view.noise.size() == o.points.cols()) {
+  if (o.view.noise.size() > 0) {
     o.out.noise.resize(static_cast<Eigen::Index>(chosen.size()));
     for (std::size_t i = 0; i < chosen.size(); ++i)
       o.out.noise[static_cast<Eigen::Index>(i)] = o.view.noise[chosen[i]];

@@ -168,7 +168,10 @@ TEST(TooSmallToBeKept, GivesNoModel) {
   ObjectSurfaceEstimation<Point> estimation;
   estimation.setInputCloud(cloud);
   MultiSuperquadric model;
-  if (estimation.estimate(model))
-    for (const Superquadric& part : model.parts)
-      EXPECT_TRUE(part.isValid());
+  if (!estimation.estimate(model)) {
+    EXPECT_TRUE(model.empty());
+    return;
+  }
+  for (const Superquadric& part : model.parts)
+    EXPECT_TRUE(part.isValid());
 }

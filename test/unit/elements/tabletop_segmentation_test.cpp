@@ -11,17 +11,17 @@ using namespace pcl_sq::test;
 namespace {
 
 /** \brief A table below (y down), the bottle and a smaller box on it, a wall behind. */
-struct Scene {
+struct BottleOnTable {
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud =
       pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   pcl::Indices bottle_indices;
 };
 
-Scene tableScene() {
-  Scene scene;
+BottleOnTable tableScene() {
+  BottleOnTable seen;
   Random random(50);
   const auto add = [&](double x, double y, double z) {
-    scene.cloud->push_back(
+    seen.cloud->push_back(
         pcl::PointXYZ(float(x), float(y + random.normal(0.0005)), float(z)));
   };
   const double nan = std::nan("");
@@ -34,40 +34,40 @@ Scene tableScene() {
     add(-0.2 + random.uniform(0, 0.05), random.uniform(0.1, 0.149), 0.8);
   const Eigen::Matrix3Xd object = visiblePoints(bottle(), 6000);
   for (Eigen::Index i = 0; i < object.cols(); ++i) {
-    scene.bottle_indices.push_back(int(scene.cloud->size()));
+    seen.bottle_indices.push_back(int(seen.cloud->size()));
     add(object(0, i), object(1, i), object(2, i));
   }
-  return scene;
+  return seen;
 }
 
 } // namespace
 
 TEST(TabletopSegmentation, FindsTheLargestObjectOnTheLargestPlane) {
-  const Scene scene = tableScene();
+  const BottleOnTable seen = tableScene();
   TabletopSegmentation<pcl::PointXYZ> tabletop;
-  tabletop.setInputCloud(scene.cloud);
+  tabletop.setInputCloud(seen.cloud);
   pcl::Indices object;
   ASSERT_TRUE(tabletop.segment(object)) << tabletop.getFailure();
   EXPECT_NEAR(tabletop.getPlane().normal.y(), -1.0, 1e-3); // towards the camera
   EXPECT_NEAR(tabletop.getPlane().signedDistance({0.0, 0.15, 0.9}), 0.0, 2e-3);
   // the object but for a strip at the table's height, and nothing else
-  EXPECT_GT(object.size(), 0.9 * scene.bottle_indices.size());
+  EXPECT_GT(object.size(), 0.9 * seen.bottle_indices.size());
   for (const auto index : object)
-    EXPECT_GE(index, scene.bottle_indices.front());
+    EXPECT_GE(index, seen.bottle_indices.front());
 }
 
 TEST(TabletopSegmentation, WorksOnGivenIndicesAlone) {
-  const Scene scene = tableScene();
+  const BottleOnTable seen = tableScene();
   auto indices = pcl::make_shared<pcl::Indices>(); // without the bottle
-  for (int i = 0; i < scene.bottle_indices.front(); ++i)
+  for (int i = 0; i < seen.bottle_indices.front(); ++i)
     indices->push_back(i);
   TabletopSegmentation<pcl::PointXYZ> tabletop;
-  tabletop.setInputCloud(scene.cloud);
+  tabletop.setInputCloud(seen.cloud);
   tabletop.setIndices(indices);
   pcl::Indices object;
   ASSERT_TRUE(tabletop.segment(object));
   for (const auto index : object) // the small box
-    EXPECT_LT((*scene.cloud)[index].x, -0.1f);
+    EXPECT_LT((*seen.cloud)[index].x, -0.1f);
 }
 
 TEST(TabletopSegmentation, SaysWhyThereIsNoObject) {

@@ -101,6 +101,18 @@ TEST(ObserveObject, MaskOfAnotherSizeIsRefused) {
   EXPECT_NE(why.find("80 x 60"), std::string::npos) << why;
 }
 
+TEST(ObserveObject, NoiseOfAnotherNumberOfPointsIsRefused) {
+  const ViewScene scene = canScene();
+  ViewOptions view;
+  view.noise = Eigen::VectorXf::Constant(scene.points.cols() - 1, 1e-3F);
+  ObservedObject observed;
+  std::string why;
+  EXPECT_FALSE(observe(scene, view, observed, &why));
+  EXPECT_NE(why.find("one number for each point"), std::string::npos) << why;
+  view.noise = Eigen::VectorXf::Constant(scene.points.cols(), 1e-3F);
+  EXPECT_TRUE(observe(scene, view, observed, &why)) << why;
+}
+
 TEST(ObserveObject, EmptyMaskAndMaskBesideTheObjectAreRefused) {
   ViewScene scene = canScene();
   ViewOptions view;
