@@ -44,8 +44,9 @@ def estimate(points: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None,
     """A union of superquadrics for the object in a point cloud.
 
     points: N x 3, or H x W x 3 for an image of points, NaN or 0 0 0 where there is none; also
-    an array of the fields x, y, z. What a masked array masks is missing. mask: H x W, the object's
-    pixels. roi: x, y, width, height in the image [px]. box: two corners [m]. remove_plane: the largest thing on a plane. parts: their number, 0: found.
+    an array of the fields x, y, z. What a masked array masks is missing. mask: H x W, the
+    object's pixels. roi: x, y, width, height in the image [px]. box: two corners [m].
+    remove_plane: the largest thing on a plane. parts: their number, 0: found.
     viewpoint, table (n, d), up: what is known of the frame. Further options are those of
     pcl_sq_fit with underscores: max_parts, preset, decomposition, fit, ...
 
