@@ -2,11 +2,11 @@
 #include "pcl_sq/multi_superquadric.h"
 
 #include "union/surface_statistics.h"
+#include "util/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <omp.h>
 #include <utility>
 #include <vector>
 
@@ -49,13 +49,13 @@ MultiSuperquadric::euclideanDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& 
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Superquadric& part : parts)
     boxes.push_back(part.boundingBox());
+  constexpr Eigen::Index BLOCK = 64; // points for which a thread is asked
   Eigen::VectorXd distances(points.cols());
-  const int count = threads == 0 ? omp_get_max_threads() : static_cast<int>(threads);
-#pragma omp parallel num_threads(count)
-  {
+  const auto blocks = static_cast<std::size_t>((points.cols() + BLOCK - 1) / BLOCK);
+  detail::parallelFor(blocks, threads, [&](std::size_t block) {
     std::vector<std::pair<double, std::size_t>> nearest_first(parts.size());
-#pragma omp for schedule(dynamic, 64)
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Index first = static_cast<Eigen::Index>(block) * BLOCK;
+    for (Eigen::Index i = first; i < std::min(first + BLOCK, points.cols()); ++i) {
       const Eigen::Vector3d point = points.col(i);
       for (std::size_t k = 0; k < parts.size(); ++k)
         nearest_first[k] = {boxes[k].exteriorDistance(point), k};
@@ -68,7 +68,7 @@ MultiSuperquadric::euclideanDistances(const Eigen::Ref<const Eigen::Matrix3Xd>& 
       }
       distances[i] = smallest;
     }
-  }
+  });
   return distances;
 }
 

@@ -63,7 +63,7 @@ TEST(MultiSuperquadric, DistancesOfManyPointsAreThoseOfEach) {
   Eigen::Matrix3Xd points(3, 300);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points.col(i) = random.pointNear(m.parts[i % 6]);
-  for (const unsigned int threads : {1U, 3U, 0U}) {
+  for (const unsigned int threads : {1U, 3U, 0U, 1000000000U}) {
     const Eigen::VectorXd distances = m.euclideanDistances(points, threads);
     for (Eigen::Index i = 0; i < points.cols(); ++i)
       EXPECT_NEAR(distances[i], m.euclideanDistance(points.col(i)), 1e-9);
