@@ -44,7 +44,7 @@ Split split(const PieceContext& context,
   if (s.first.points.size() < s.second.points.size())
     std::swap(s.first, s.second);
   fitPiece(context, s.first, Effort::QUICK);
-  // costs are not negative: all that lowers a score is the outline's lines
+  // the second part's score is no less than minus half the outline's lines
   if (s.first.score - 0.5 * context.options.silhouette_lines > most)
     return s;
   fitPiece(context, s.second, Effort::QUICK);
